@@ -1,0 +1,62 @@
+# make demo     set everything up, calibrate a simulated 7-joint arm, write its report to demo-result/
+# make test     set everything up, then ctest, pytest, ruff and mypy
+# make install  only the set-up: .venv/bin/circlepoint
+# Each target does its own set-up on a bare Debian 12 and is quick when there is nothing to do.
+.DEFAULT_GOAL := help
+SHELL := /bin/bash
+PYTHON ?= python3
+BIN := .venv/bin
+PACKAGES := g++ cmake ninja-build make python3-venv python3-dev ccache libeigen3-dev libceres-dev liborocos-kdl-dev \
+            libgtest-dev libgmock-dev libbenchmark-dev
+SOURCES := CMakeLists.txt pyproject.toml README.md LICENSE $(shell find cmake cpp python -type f -not -path '*/__pycache__/*')
+export CMAKE_CXX_COMPILER_LAUNCHER := ccache
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
+
+.PHONY: help demo test install system ctest pytest lint bench accuracy clean
+
+help:
+	@sed -n 's/^# //p' Makefile | head -4
+
+# Debian packages, only when one is missing.
+system:
+	@missing=""; for package in $(PACKAGES); do \
+	  dpkg-query -W -f='$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$package"; done; \
+	if [ -n "$$missing" ]; then \
+	  echo "installing Debian packages:$$missing"; \
+	  as_root=""; [ "$$(id -u)" = 0 ] || as_root=sudo; \
+	  $$as_root apt-get update -qq && \
+	  DEBIAN_FRONTEND=noninteractive $$as_root apt-get install -y -qq --no-install-recommends $$missing >/dev/null; fi
+
+$(BIN)/python: | system
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --upgrade 'pip>=25.1'
+
+.venv/dev.stamp: pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --group dev 'scikit-build-core>=0.10' 'pybind11>=3.0,<4'
+	@touch $@
+
+.venv/install.stamp: $(SOURCES) | $(BIN)/python
+	$(BIN)/python -m pip install --quiet .
+	@touch $@
+
+install: .venv/install.stamp
+
+demo: install
+	$(BIN)/circlepoint demo --out demo-result
+
+ctest: system
+	cmake --preset release >/dev/null
+	cmake --build --preset release
+	ctest --preset release
+
+pytest: install .venv/dev.stamp
+	$(BIN)/python -m pytest
+
+lint: install .venv/dev.stamp
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+test: install ctest pytest lint
+
+clean:
+	rm -rf build .venv demo-result

@@ -1,0 +1,32 @@
+# Data flows one way: a file of one stage may include headers of its own and of earlier stages only.
+# cmake -DROOT=cpp -P check_stages.cmake
+set(stages core geometry sensor chain recording conditioning identification simulation)
+# Solvers and chains of others stay behind the public headers: std and Eigen only (chain/kdl is the exception).
+set(private_headers "ceres/|kdl/")
+
+set(violations "")
+set(rank 0)
+foreach(stage IN LISTS stages)
+  file(GLOB_RECURSE headers "${ROOT}/include/circlepoint/${stage}/*.hpp*")
+  file(GLOB_RECURSE sources "${ROOT}/src/${stage}/*.cpp" "${ROOT}/src/${stage}/*.hpp")
+  foreach(file IN LISTS headers sources)
+    file(STRINGS "${file}" includes REGEX "^[ \t]*#[ \t]*include")
+    foreach(line IN LISTS includes)
+      if(line MATCHES "circlepoint/([a-z_]+)/")
+        list(FIND stages "${CMAKE_MATCH_1}" included_rank)
+        if(included_rank EQUAL -1 OR included_rank GREATER rank)
+          list(APPEND violations "${file}: stage '${stage}' includes '${CMAKE_MATCH_1}': ${line}")
+        endif()
+      endif()
+      if(file MATCHES "/include/" AND NOT file MATCHES "/chain/kdl" AND line MATCHES "<(${private_headers})")
+        list(APPEND violations "${file}: a public header includes ${line}")
+      endif()
+    endforeach()
+  endforeach()
+  math(EXPR rank "${rank} + 1")
+endforeach()
+
+if(violations)
+  list(JOIN violations "\n  " text)
+  message(FATAL_ERROR "includes against the arrow:\n  ${text}")
+endif()
