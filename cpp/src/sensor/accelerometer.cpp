@@ -1,5 +1,6 @@
 #include "circlepoint/sensor/accelerometer.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <optional>
 #include <string>

@@ -137,7 +137,8 @@ void append(Timeline& timeline, const PointToPointMove& piece) {
 
 void append(Timeline& timeline, const SteppedSweep& piece) {
   require_joint(piece.joint, timeline.joints());
-  require(piece.steps >= 2, "steps of a stepped sweep is " + std::to_string(piece.steps) + "; give at least 2 positions");
+  require(piece.steps >= 2,
+          "steps of a stepped sweep is " + std::to_string(piece.steps) + "; give at least 2 positions");
   require(std::isfinite(piece.span) && piece.span != 0.0,
           "span of a stepped sweep is " + quoted(piece.span) + "; give a non-zero range");
   require_positive(piece.dwell, "dwell of a stepped sweep", "s");

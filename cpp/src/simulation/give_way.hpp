@@ -10,12 +10,13 @@ struct JointState {
   Eigen::VectorXd position, velocity, acceleration;
 };
 
-/// How far every joint gives way at commanded positions q: yield_j z_j . (r_j x g), prismatic yield_j z_j . g.
-Eigen::VectorXd give_way(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_base, const Eigen::VectorXd& yield,
-                         const Eigen::VectorXd& q);
+/// How far every joint gives way at commanded positions q: compliance_j z_j . (r_j x g); a prismatic joint
+/// compliance_j z_j . g.
+Eigen::VectorXd give_way(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_base,
+                         const Eigen::VectorXd& compliance, const Eigen::VectorXd& q);
 
 /// The actual state behind a commanded one.
-JointState add_give_way(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_base, const Eigen::VectorXd& yield,
-                        const JointState& commanded);
+JointState add_give_way(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_base,
+                        const Eigen::VectorXd& compliance, const JointState& commanded);
 
 }  // namespace circlepoint

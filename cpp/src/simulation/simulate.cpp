@@ -50,7 +50,7 @@ void validate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor,
   require_one_a_joint(options.encoder_counts_per_revolution, "encoder_counts_per_revolution", chain.size());
   require((options.encoder_counts_per_revolution.array() >= 0.0).all(),
           "encoder_counts_per_revolution holds a negative number; give counts, or 0 for an exact encoder");
-  require_one_a_joint(options.yield, "yield", chain.size());
+  require_one_a_joint(options.compliance, "compliance", chain.size());
   require(options.bias_drift.allFinite(), "bias_drift holds a value that is not finite");
   const VibrationOptions& vibration = options.vibration;
   require_not_negative(vibration.tangential_amplitude, "vibration tangential_amplitude");
@@ -103,8 +103,8 @@ Recording simulate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_se
     state.position = trajectory.position.row(i);
     state.velocity = trajectory.velocity.row(i);
     state.acceleration = trajectory.acceleration.row(i);
-    if (options.yield.size() > 0) {
-      state = add_give_way(chain, up_gravity_base, options.yield, state);
+    if (options.compliance.size() > 0) {
+      state = add_give_way(chain, up_gravity_base, options.compliance, state);
     }
     const FrameMotion motion = frame_motion(chain, state.position, state.velocity, state.acceleration);
     Eigen::Vector3d force = specific_force(motion, up_gravity_base);

@@ -7,8 +7,8 @@
 // ends of a raised cosine (eq. (11) of Canepa 1994 starts and stops with its largest acceleration). At such an instant
 // the sample belongs to the piece that begins.
 //
-// InvalidInput: durations or rates that are not positive, joints that do not exist, values that are not finite, a raised
-// cosine of a fractional number of cycles (it would not end at rest).
+// InvalidInput: durations or rates that are not positive, joints that do not exist, values that are not finite, a
+// raised cosine of a fractional number of cycles (it would not end at rest).
 
 #include <Eigen/Core>
 #include <cstdint>

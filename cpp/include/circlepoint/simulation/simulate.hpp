@@ -1,17 +1,19 @@
 #pragma once
 // What a real arm and a real sensor would have recorded of a motion.
 //
-//   reading = clip(sensor(f(theta) + vibration, w) + drift + noise),     encoder = round(theta counts / 2 pi) 2 pi / counts
+//   reading = clip(sensor(f(theta) + vibration, w) + drift + noise)
+//   encoder = round(theta counts / 2 pi) 2 pi / counts
 //
 // with f and w of the product of exponentials (chain/screw_chain) at the joints' actual positions theta:
 //
-//   theta_j = q_j + yield_j z_j . (r_j x g)       (prismatic: yield_j z_j . g)
+//   theta_j = q_j + compliance_j z_j . (r_j x g)       (prismatic: compliance_j z_j . g)
 //
-// q is the commanded trajectory, z_j the axis, r_j the vector from the axis to the sensor and g = -up_gravity: each joint
-// gives way to the weight of a unit mass at the sensor, as a position loop without integral action does (milliradians).
-// Encoders see theta. Its derivatives follow the trajectory's own: theta is evaluated along q + q_dot h + q_ddot h^2 / 2 at
-// h = 0 and +-1 ms and differenced, which is exact up to h^2 / 12 times its fourth derivative (1e-8 rad/s^2 for
-// milliradians at 1 Hz), has no edges and does not mix samples across a step of the acceleration.
+// q is the commanded trajectory, z_j the axis, r_j the vector from the axis to the sensor and g = -up_gravity: each
+// joint gives way to the weight of a unit mass at the sensor, as a position loop without integral action does
+// (milliradians). Encoders see theta. Its derivatives follow the trajectory's own: theta is evaluated along
+// q + q_dot h + q_ddot h^2 / 2 at h = 0 and +-1 ms and differenced, which is exact up to h^2 / 12 times its fourth
+// derivative (1e-6 rad/s^2 for milliradians at 1 Hz), has no edges and does not mix samples across a step of the
+// acceleration.
 //
 // Vibration is what the paper's section 4 adds: sinusoids of random frequency and phase along the sensor's direction of
 // motion and along the two directions orthogonal to it, the root sum of squares of the components' amplitudes in each
@@ -44,9 +46,9 @@ struct VibrationOptions {
 struct SimulationOptions {
   double noise_std = 0.0;      ///< m/s^2, white, per sample
   double range = 0.0;          ///< m/s^2, readings clip at +-range; 0: no clipping
-  Eigen::VectorXd encoder_counts_per_revolution;  ///< (n), 0: exact; empty: all exact; prismatic joints are always exact
+  Eigen::VectorXd encoder_counts_per_revolution;  ///< (n), 0: exact; empty: all exact; prismatic are always exact
   Eigen::Vector3d bias_drift = Eigen::Vector3d::Zero();  ///< m/s^2, reached linearly from 0 over the recording
-  Eigen::VectorXd yield;       ///< (n) rad per m^2/s^2 (prismatic: m per m/s^2); empty: rigid
+  Eigen::VectorXd compliance;       ///< (n) rad per m^2/s^2 (prismatic: m per m/s^2); empty: rigid
   VibrationOptions vibration;
   std::uint64_t seed = 0;
 };
