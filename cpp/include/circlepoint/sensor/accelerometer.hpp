@@ -1,12 +1,16 @@
 #pragma once
 // Triaxial accelerometer: one model, used to simulate and to correct.
 //
-//   y = (1 + scale) * M (f - D (|w|^2 - w_k^2)) + second_order * (.)^2 + bias + noise
+//   y_k = (1 + scale_k) u_k + second_order_k u_k^2 + bias_k (+ noise),      u = M (f - D (|w|^2 - w_k^2))
 //
-// f: specific force at the frame's origin (m/s^2), w: angular velocity (rad/s), both in the sensor frame. Channel k
-// measures at distance D_k along its own axis (centre of percussion; the centripetal term is eq. (10) of Canepa 1994 with
-// its sign, the tangential term vanishes). M is unit lower triangular (misalignment: yx, zx, zy), which fixes the frame:
-// x along the first sensitive axis, y in the plane of the first two.
+// f: specific force at the frame's origin (m/s^2), w: angular velocity (rad/s), both in the sensor frame; the bracket is
+// taken channel by channel. Channel k measures at distance D_k along its own axis (centre of percussion; the centripetal
+// term is eq. (10) of Canepa 1994 with its sign, the tangential term vanishes). M is unit lower triangular
+// (misalignment: yx, zx, zy), which fixes the frame: x along the first sensitive axis, y in the plane of the first two.
+//
+// `correct` is the exact inverse on the branch through zero: u_k = 2 v / (g + sqrt(g^2 + 4 second_order v)) with
+// g = 1 + scale_k > 0 and v = y_k - bias_k. It fails where the parabola never reaches the reading, which no instrument's
+// second-order term does within its range (QA700: 5e-6 s^2/m against 1 / 300 s^2/m), and for a channel with g <= 0.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -25,10 +29,21 @@ struct AccelerometerModel {
   /// M, unit lower triangular.
   [[nodiscard]] Eigen::Matrix3d misalignment_matrix() const;
   /// What the sensor reads, without noise.
-  [[nodiscard]] Eigen::Vector3d measure(const Eigen::Vector3d& specific_force, const Eigen::Vector3d& angular_velocity) const;
-  /// The specific force that was read: the inverse of measure (one fixed-point pass for the second-order term).
+  [[nodiscard]] Eigen::Vector3d measure(const Eigen::Vector3d& specific_force,
+                                        const Eigen::Vector3d& angular_velocity) const;
+  /// The specific force that was read: the inverse of measure. Raises InvalidInput where there is none.
   [[nodiscard]] Eigen::Vector3d correct(const Eigen::Vector3d& reading, const Eigen::Vector3d& angular_velocity) const;
 };
+
+/// What the sensor reads at every sample, without noise: (N, 3) m/s^2 from specific force and angular velocity (N, 3).
+/// Raises InvalidInput when the two have different numbers of samples.
+Samples3 measure(const AccelerometerModel& model, const Eigen::Ref<const Samples3>& specific_force,
+                 const Eigen::Ref<const Samples3>& angular_velocity);
+
+/// The specific force behind every reading. Raises InvalidInput for different numbers of samples and for a reading that
+/// the model cannot produce (named by its row).
+Samples3 correct(const AccelerometerModel& model, const Eigen::Ref<const Samples3>& reading,
+                 const Eigen::Ref<const Samples3>& angular_velocity);
 
 /// What a data sheet says of a sensor's kind: standard deviations of the individual errors around nominal values.
 /// It is the estimators' prior and the simulator's source of individual sensors.
@@ -43,7 +58,8 @@ struct AccelerometerSpecification {
   double range = 0.0;                    ///< m/s^2, readings clip at +-range; 0: no clipping
 };
 
-/// One individual sensor of a kind, drawn with the given seed.
+/// One individual sensor of a kind, drawn with the given seed: the same seed draws the same sensor everywhere.
+/// Raises InvalidInput for a standard deviation that is negative or not finite.
 AccelerometerModel draw_accelerometer(const AccelerometerSpecification& specification, std::uint64_t seed);
 
 }  // namespace circlepoint

@@ -1,0 +1,212 @@
+"""Test plans: what the arm is to do, from a YAML file to joint trajectories.
+
+A plan says the sample rate, where the joints rest, and a list of tests: stepped sweeps and raised cosines (eq. (11) of
+Canepa, Hollerbach, Boelen 1994) of one joint or of every joint in turn, and motions of all joints at once.
+``plans/paper.yaml`` in the package is one.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from circlepoint._core import (
+    Dwell,
+    InvalidInput,
+    JointTrajectory,
+    MultiJointMotion,
+    RaisedCosine,
+    SteppedSweep,
+    joint_trajectory,
+)
+from circlepoint.strict_yaml import Fields, read_document
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    Piece = Dwell | SteppedSweep | RaisedCosine | MultiJointMotion
+
+PAPER_PLAN = Path(__file__).parent / "plans" / "paper.yaml"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A motion to run or to simulate.
+
+    Attributes
+    ----------
+    name : str
+    sample_rate : float
+        Hz.
+    rest : (n,) ndarray
+        rad or m: where the joints are before, between and after the tests.
+    pieces : tuple
+        The motions in order.
+    pause : float
+        s of rest before the first motion, between any two and after the last.
+    """
+
+    name: str
+    sample_rate: float
+    rest: NDArray[np.float64]
+    pieces: tuple[Piece, ...]
+    pause: float
+
+    def trajectory(self) -> JointTrajectory:
+        """Return the joint trajectory of the whole plan on one clock."""
+        return joint_trajectory(self.rest, list(self.pieces), self.sample_rate, self.pause)
+
+
+def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequence[str] | None = None) -> Plan:
+    """Read a plan for an arm.
+
+    Parameters
+    ----------
+    path
+        YAML file with ``rate_hz``, ``rest_deg`` (or ``rest`` in rad and m), optional ``name`` and ``pause`` (s), and
+        ``tests``: a list of ``{joint: NAME | all, static: {...}, dynamic: {...}}`` and ``{free: {...}}``. Ranges are
+        ``span_deg`` and ``amplitude_deg`` for revolute joints, ``span_m`` and ``amplitude_m`` for prismatic ones.
+    joint_names
+        The arm's joints, base to tip.
+    joint_types
+        ``"revolute"`` or ``"prismatic"`` for each; all revolute when not given.
+
+    Returns
+    -------
+    Plan
+
+    Raises
+    ------
+    InvalidInput
+        Naming file, field, value and remedy: for an unknown, missing or impossible field, and for a joint the arm does
+        not have.
+    """
+    names = list(joint_names)
+    prismatic = [kind == "prismatic" for kind in joint_types or ["revolute"] * len(names)]
+    if not names or len(prismatic) != len(names):
+        raise InvalidInput(
+            f"{len(names)} joint names and {len(prismatic)} joint types; give one of each for every joint"
+        )
+    fields = read_document(Path(path))
+    name = fields.text("name", "give the plan a name", default=Path(path).stem)
+    sample_rate = fields.number("rate_hz", above=0.0)
+    rest = _rest(fields, prismatic)
+    pause = fields.number("pause", default=0.5, at_least=0.0)
+    pieces: list[Piece] = []
+    for test in fields.mappings("tests", "give a list of tests"):
+        pieces.extend(_test(test, names, prismatic))
+    fields.done()
+    plan = Plan(name=name, sample_rate=sample_rate, rest=rest, pieces=tuple(pieces), pause=pause)
+    _require_feasible(plan, fields.source)
+    return plan
+
+
+def paper_plan(joint_names: Sequence[str]) -> Plan:
+    """Return the paper's protocol for an arm of revolute joints: per joint a stepped sweep, then eq. (11)."""
+    return load_plan(PAPER_PLAN, joint_names)
+
+
+def _require_feasible(plan: Plan, source: str) -> None:
+    """Let the core check what a single field cannot show, such as a raised cosine of a fractional number of cycles."""
+    for index, piece in enumerate(plan.pieces):
+        try:
+            joint_trajectory(plan.rest, [piece], 1.0)
+        except InvalidInput as error:
+            raise InvalidInput(
+                f"{source}: motion {index + 1} of {len(plan.pieces)} is not possible: {error}"
+            ) from error
+
+
+def _rest(fields: Fields, prismatic: list[bool]) -> NDArray[np.float64]:
+    """Return where the joints rest, rad or m."""
+    key = "rest" if fields.has("rest") else "rest_deg"
+    remedy = f"give one number, or a list of {len(prismatic)}, one a joint (rest_deg in degrees, or rest in rad and m)"
+    value = fields.value(key, remedy)
+    entries = value if isinstance(value, list) else [value] * len(prismatic)
+    if len(entries) != len(prismatic):
+        fields.fail(key, value, remedy)
+    if key == "rest_deg" and any(prismatic):
+        fields.fail(key, value, "the arm has prismatic joints: give rest, in rad and m")
+    scale = math.pi / 180.0 if key == "rest_deg" else 1.0
+    return np.array([scale * fields.checked_number(key, entry, remedy) for entry in entries])
+
+
+def _test(test: Fields, names: list[str], prismatic: list[bool]) -> Iterator[Piece]:
+    """Yield the motions of one entry of the list of tests, in the order they are run."""
+    if test.has("free"):
+        free = test.mapping("free", "give the motion's fields")
+        test.done()
+        yield _free(free, prismatic)
+        return
+    joint = test.text("joint", "give a joint's name, or all")
+    if joint not in (*names, "all"):
+        test.fail("joint", joint, f"the arm's joints are {', '.join(names)}; or say all")
+    if not (test.has("static") or test.has("dynamic")):
+        test.fail("", joint, "give static, dynamic or both for the joint, or free for a motion of all joints")
+    tests = [(kind, test.mapping(kind, "give the motion's fields")) for kind in ("static", "dynamic") if test.has(kind)]
+    test.done()
+    chosen = range(len(names)) if joint == "all" else [names.index(joint)]
+    for index in chosen:
+        for kind, fields in tests:
+            yield _static(fields, index, prismatic) if kind == "static" else _dynamic(fields, index, prismatic)
+    for _, fields in tests:
+        _allow_both_units(fields, "span", [prismatic[index] for index in chosen])
+        fields.done()
+
+
+def _static(fields: Fields, joint: int, prismatic: list[bool]) -> SteppedSweep:
+    default = SteppedSweep(joint=0, span=1.0)
+    return SteppedSweep(
+        joint=joint,
+        span=_length(fields, "span", is_prismatic=prismatic[joint]),
+        steps=fields.integer("steps", at_least=2),
+        dwell=fields.number("dwell", default=default.dwell, above=0.0),
+        move=fields.number("move", default=default.move, above=0.0),
+        return_duration=fields.number("return", default=default.return_duration, above=0.0),
+    )
+
+
+def _dynamic(fields: Fields, joint: int, prismatic: list[bool]) -> RaisedCosine:
+    return RaisedCosine(
+        joint=joint,
+        span=_length(fields, "span", is_prismatic=prismatic[joint]),
+        frequency=fields.number("frequency_hz", above=0.0),
+        duration=fields.number("duration", above=0.0),
+    )
+
+
+def _free(fields: Fields, prismatic: list[bool]) -> MultiJointMotion:
+    default = MultiJointMotion(duration=1.0, amplitude=np.zeros(len(prismatic)))
+    motion = MultiJointMotion(
+        duration=fields.number("duration", above=0.0),
+        amplitude=np.array([_length(fields, "amplitude", is_prismatic=slides) for slides in prismatic]),
+        frequency_min=fields.number("frequency_min_hz", default=default.frequency_min, above=0.0),
+        frequency_max=fields.number("frequency_max_hz", default=default.frequency_max, above=0.0),
+        harmonics=fields.integer("harmonics", default=default.harmonics, at_least=1),
+        ramp=fields.number("ramp", default=default.ramp, above=0.0),
+        seed=fields.integer("seed", default=default.seed, at_least=0),
+    )
+    _allow_both_units(fields, "amplitude", prismatic)
+    fields.done()
+    return motion
+
+
+def _length(fields: Fields, name: str, *, is_prismatic: bool) -> float:
+    """Return a range of motion in the joint's own unit: m, or degrees as rad."""
+    if is_prismatic:
+        return fields.number(f"{name}_m")
+    return math.radians(fields.number(f"{name}_deg"))
+
+
+def _allow_both_units(fields: Fields, name: str, prismatic: Sequence[bool]) -> None:
+    """Refuse a range given for a kind of joint that does not take part."""
+    if fields.has(f"{name}_m") and not any(prismatic):
+        fields.fail(f"{name}_m", fields.value(f"{name}_m", ""), f"no prismatic joint takes part; give {name}_deg only")
+    if fields.has(f"{name}_deg") and all(prismatic):
+        fields.fail(f"{name}_deg", fields.value(f"{name}_deg", ""), f"no revolute joint takes part; give {name}_m only")
