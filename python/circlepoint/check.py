@@ -1,0 +1,238 @@
+"""What is in a log: its clock, its sensor, the tests of each joint, and what is still to be recorded.
+
+Nothing is estimated; `format_check` puts it all on one screen.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+import circlepoint
+from circlepoint.column_map import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from circlepoint.arm import Arm, Joint
+    from circlepoint.findings import Finding
+    from circlepoint.recording_io import LoadedRecording
+
+MIN_DWELLS = 4
+"""Rests a joint's direction is well seen with."""
+MIN_DWELL_SPAN = {"revolute": 0.5, "prismatic": 0.1}
+"""rad or m: the range those rests should cover."""
+MIN_MOTION_SPAN = {"revolute": 0.2, "prismatic": 0.05}
+"""rad or m: the travel a motion should have."""
+MIN_GRAVITY_SHARE = 0.1
+"""Part of gravity across the axis, below which the rests say little about its direction."""
+
+JointStatus = Literal["good", "weak", "missing"]
+
+
+@dataclass(frozen=True)
+class JointCheck:
+    """What was recorded of one joint, lengths of travel in rad or m.
+
+    Attributes
+    ----------
+    joint : Joint
+        The joint.
+    tests : int
+        Configurations of the other joints in which it was tested.
+    dwells, motions : int
+        Rests and motions of this joint alone, in all tests.
+    dwell_span, motion_span : float
+        Range of its rests in one test, largest travel of a motion.
+    motion_time : float
+        s, of all motions.
+    frequency : float or None
+        Hz of the longest motion; None for a single stroke.
+    encoder_step : float or None
+        Smallest step seen; None where it never moved.
+    gravity_share : float or None
+        Part of gravity across the axis, from the rests; None where they cannot tell.
+    status : str
+        ``"good"``, ``"weak"`` (can be calibrated, badly) or ``"missing"`` (cannot).
+    advice : str
+        What to record next; empty when nothing is needed.
+    """
+
+    joint: Joint
+    tests: int
+    dwells: int
+    dwell_span: float
+    motions: int
+    motion_span: float
+    motion_time: float
+    frequency: float | None
+    encoder_step: float | None
+    gravity_share: float | None
+    status: JointStatus
+    advice: str
+
+
+@dataclass(frozen=True)
+class LogCheck:
+    """What is in a log.
+
+    Attributes
+    ----------
+    loaded : LoadedRecording
+        The recording, its files and clocks.
+    joints : tuple of JointCheck
+        Base to tip.
+    rests : int
+        Rests of the whole arm.
+    rest_magnitude, rest_magnitude_std : float or None
+        m/s^2; magnitude of the specific force over the rests: mean and standard deviation.
+    rest_noise : float or None
+        m/s^2; standard deviation of samples within a rest, the median over rests and channels.
+    gravity : float
+        m/s^2; what the magnitude should be.
+    findings : tuple of Finding
+        What is suspicious.
+    """
+
+    loaded: LoadedRecording
+    joints: tuple[JointCheck, ...]
+    rests: int
+    rest_magnitude: float | None
+    rest_magnitude_std: float | None
+    rest_noise: float | None
+    gravity: float
+    findings: tuple[Finding, ...]
+
+    @property
+    def ready(self) -> bool:
+        """Whether every joint can be calibrated, joint by joint."""
+        return all(joint.status != "missing" for joint in self.joints)
+
+
+def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STANDARD_GRAVITY) -> LogCheck:
+    """Look at a recording of an arm.
+
+    Parameters
+    ----------
+    loaded : LoadedRecording
+        From `read_recording`.
+    arm : Arm
+        The arm that was recorded.
+    gravity : float, optional
+        m/s^2, local gravity.
+
+    Returns
+    -------
+    LogCheck
+        Rates, rests, tests per joint and what is missing.
+    """
+    segmentation = circlepoint.segment(loaded.recording)
+    forces = np.array([dwell.specific_force for dwell in segmentation.dwells]).reshape(-1, 3)
+    noise = np.array([dwell.specific_force_std for dwell in segmentation.dwells])
+    magnitudes = np.linalg.norm(forces, axis=1)
+    return LogCheck(
+        loaded=loaded,
+        joints=tuple(
+            _check_joint(loaded, segmentation, joint, index, gravity) for index, joint in enumerate(arm.joints)
+        ),
+        rests=len(segmentation.dwells),
+        rest_magnitude=float(magnitudes.mean()) if magnitudes.size else None,
+        rest_magnitude_std=float(magnitudes.std()) if magnitudes.size else None,
+        rest_noise=float(np.median(noise)) if noise.size else None,
+        gravity=gravity,
+        findings=loaded.findings,
+    )
+
+
+def _check_joint(
+    loaded: LoadedRecording, segmentation: circlepoint.Segmentation, joint: Joint, index: int, gravity: float
+) -> JointCheck:
+    tests = [test for test in segmentation.tests if test.joint == index]
+    motions = [segmentation.motions[i] for test in tests for i in test.motions]
+    dwell_span = max((test.dwell_span for test in tests), default=0.0)
+    motion_span = max((test.motion_span for test in tests), default=0.0)
+    dwells = max((len(test.dwells) for test in tests), default=0)
+    share = _gravity_share(segmentation, tests, index, gravity) if joint.revolute else None
+    status, advice = _judge(
+        joint, dwells=dwells, dwell_span=dwell_span, motions=len(motions), motion_span=motion_span, share=share
+    )
+    return JointCheck(
+        joint=joint,
+        tests=len(tests),
+        dwells=sum(len(test.dwells) for test in tests),
+        dwell_span=dwell_span,
+        motions=len(motions),
+        motion_span=motion_span,
+        motion_time=sum(motion.samples.size for motion in motions) / loaded.recording.sample_rate,
+        frequency=_frequency(loaded.recording, motions),
+        encoder_step=loaded.encoder_steps[index],
+        gravity_share=share,
+        status=status,
+        advice=advice,
+    )
+
+
+def _judge(
+    joint: Joint, *, dwells: int, dwell_span: float, motions: int, motion_span: float, share: float | None
+) -> tuple[JointStatus, str]:
+    """Return the verdict on one joint, and what to record next."""
+    rests_over, strokes_over = 3 * MIN_DWELL_SPAN[joint.type], 3 * MIN_MOTION_SPAN[joint.type]
+    rests = f"let it rest at {MIN_DWELLS} or more positions over {_travel(joint, rests_over)} or more, 1 s each"
+    strokes = f"move it alone to and fro over {_travel(joint, strokes_over)} or more, briskly, for 5 s or more"
+    if motions == 0 and dwells < 2:
+        return "missing", f"no test of this joint alone: with the others still, {rests}; then {strokes}"
+    if motions == 0:
+        return "missing", f"rests only, and they do not show where the axis is: {strokes}"
+    if motion_span < MIN_MOTION_SPAN[joint.type]:
+        return "weak", f"its motions are short ({_travel(joint, motion_span)}): {strokes}"
+    if dwells < MIN_DWELLS or dwell_span < MIN_DWELL_SPAN[joint.type]:
+        return "weak", f"few rests ({dwells} over {_travel(joint, dwell_span)}): {rests}"
+    if share is not None and share < MIN_GRAVITY_SHARE:
+        return "weak", (
+            f"gravity is along its axis (only {share:.2g} g across): rests hardly show its direction, so more and "
+            f"brisker motions, and a "
+            "precise sensor, matter here"
+        )
+    return "good", ""
+
+
+def _gravity_share(
+    segmentation: circlepoint.Segmentation, tests: Sequence[circlepoint.JointTest], index: int, gravity: float
+) -> float | None:
+    """Part of gravity across the axis: how far the reading moves when the joint turns by the rests' span."""
+    shares = []
+    for test in tests:
+        dwells = sorted(
+            (segmentation.dwells[i] for i in test.dwells), key=lambda dwell: float(dwell.joint_positions[index])
+        )
+        for dwell in dwells[1:]:
+            turn = abs(math.sin((dwell.joint_positions[index] - dwells[0].joint_positions[index]) / 2))
+            if turn > 0.1:
+                chord = float(np.linalg.norm(dwell.specific_force - dwells[0].specific_force))
+                shares.append(chord / (2 * gravity * turn))
+    return min(float(np.median(shares)), 1.0) if shares else None
+
+
+def _frequency(recording: circlepoint.Recording, motions: Sequence[circlepoint.SingleJointMotion]) -> float | None:
+    """Frequency of the longest motion by its turning points; None for a single stroke."""
+    if not motions:
+        return None
+    motion = max(motions, key=lambda candidate: candidate.samples.size)
+    begin, end = motion.samples.begin, motion.samples.end
+    position = recording.joint_positions[begin:end, motion.joint]
+    middle = (position.max() + position.min()) / 2
+    band = 0.1 * (position.max() - position.min())
+    side = np.where(position > middle + band, 1, np.where(position < middle - band, -1, 0))
+    known = np.flatnonzero(side)
+    crossings = known[1:][np.diff(side[known]) != 0]
+    if crossings.size < 2:
+        return None
+    elapsed = recording.time[begin + crossings[-1]] - recording.time[begin + crossings[0]]
+    return float((crossings.size - 1) / (2 * elapsed))
+
+
+def _travel(joint: Joint, value: float) -> str:
+    return f"{math.degrees(value):.0f} deg" if joint.revolute else f"{1000 * value:.0f} mm"

@@ -1,0 +1,118 @@
+"""``circlepoint calibrate``: the main job."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from circlepoint._core import InvalidInput
+from circlepoint.arm import Arm, load_arm
+from circlepoint.atomic import require_writable_folder
+from circlepoint.cli.options import Subparsers, add_command, add_recording, numbers, progress
+
+if TYPE_CHECKING:
+    import argparse
+
+METHODS = ("joint", "position", "velocity")
+
+_TEXT = """\
+Estimate the axis of every joint as a line in the sensor's frame, the Denavit-Hartenberg parameters that follow from
+them, and the sensor's own errors, each with its standard deviation. Writes DIR/calibration.json (whole or not at all)
+and DIR/report.html with figures.
+
+Exit status 0: every joint was estimated. 1: some could not be (the result says which, why and what to record; what
+could be estimated is written, complete: false). 2: bad input, nothing written."""
+
+_EXAMPLES = """\
+  circlepoint calibrate log.csv --arm arm.yaml --out result
+  circlepoint calibrate joints.csv sensor.csv --arm arm.yaml --out result        two files, two clocks
+  circlepoint calibrate log.csv --arm arm.yaml --out result --sensor qa700 --method velocity
+  circlepoint calibrate log.csv --arm arm.yaml --out result --reference-configuration -1.2,0,0.5,0,0,0
+"""
+
+
+def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Add the command."""
+    parser = add_command(
+        commands,
+        common,
+        "calibrate",
+        summary="estimate the arm's axes from a recording",
+        text=_TEXT,
+        examples=_EXAMPLES,
+    )
+    add_recording(parser)
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="result folder; made if it is not there")
+    parser.add_argument(
+        "--method",
+        choices=METHODS,
+        default="joint",
+        help="joint: regression, joint by joint (default); position, velocity: the two methods of Canepa et al. 1994",
+    )
+    parser.add_argument(
+        "--sensor", metavar="PRESET|FILE", help="what is known of the sensor: a preset's name or a data sheet file"
+    )
+    parser.add_argument(
+        "--reference-configuration",
+        type=numbers,
+        metavar="Q1,Q2,...",
+        help="joint positions (rad or m) at which the lines are given (default: chosen from the recording)",
+    )
+    parser.add_argument("--json", action="store_true", help="print calibration.json instead of tables")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    from circlepoint.calibrate import calibrate  # noqa: PLC0415  (keeps `circlepoint --help` quick)
+    from circlepoint.document import with_reading, write_document  # noqa: PLC0415
+    from circlepoint.recording_io import read_recording  # noqa: PLC0415
+    from circlepoint.report import format_dh_table, format_joint_table, write_report  # noqa: PLC0415
+    from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
+
+    require_writable_folder(options.out)
+    arm = load_arm(options.arm)
+    _require_reference(options.reference_configuration, arm)
+    sensor = load_sensor(options.sensor) if options.sensor is not None else None
+    with progress(3, quiet=options.json) as begin:
+        begin("reading")
+        loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
+        begin("estimating")
+        calibration = calibrate(
+            loaded.recording,
+            arm,
+            method=options.method,
+            sensor=sensor,
+            gravity=options.gravity,
+            reference_configuration=options.reference_configuration,
+        )
+        begin("writing")
+        calibration = replace(calibration, document=with_reading(calibration.document, loaded))
+        document = calibration.document
+        options.out.mkdir(parents=True, exist_ok=True)
+        write_report(options.out, calibration)
+        write_document(options.out / "calibration.json", document)
+    if options.json:
+        print(json.dumps(document, indent=1, allow_nan=False))
+    else:
+        print(f"{format_joint_table(document)}\n{format_dh_table(document)}")
+        for finding in document["findings"]:
+            print(f"note: {finding['message']}")
+        print(f"written: {options.out / 'calibration.json'}, {options.out / 'report.html'}")
+    if document["complete"]:
+        return 0
+    missing = [joint for joint in document["joints"] if joint["direction_sensor"] is None]
+    for joint in missing:
+        print(f"circlepoint: {joint['name']}: not estimated: {joint['reason']}", file=sys.stderr)
+    return 1
+
+
+def _require_reference(reference: tuple[float, ...] | None, arm: Arm) -> None:
+    if reference is not None and len(reference) != len(arm.joints):
+        raise InvalidInput(
+            f"--reference-configuration has {len(reference)} values, the arm {arm.name!r} has {len(arm.joints)} "
+            f"joints; give one a joint"
+        )

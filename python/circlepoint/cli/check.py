@@ -1,0 +1,206 @@
+"""``circlepoint check``: what is in a log, and what is missing."""
+
+from __future__ import annotations
+
+import json
+import math
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+from circlepoint.arm import load_arm
+from circlepoint.cli.options import Subparsers, add_command, add_recording
+from circlepoint.document import finding_entries
+
+if TYPE_CHECKING:
+    import argparse
+
+    from circlepoint.check import JointCheck, LogCheck
+    from circlepoint.recording_io import LogFile
+
+_TEXT = """\
+Show what is in a log: sample rate, jitter and gaps, clipping, what the sensor reads at rest, the encoders' steps, the
+tests of each joint that were found, and what to record next.
+
+Exit status 0: every joint can be calibrated (calibrate --method joint). 1: some cannot. 2: bad input."""
+
+_EXAMPLES = """\
+  circlepoint check log.csv --arm arm.yaml
+  circlepoint check joints.csv sensor.csv --arm arm.yaml          two files, two clocks
+  circlepoint check rtde.csv --arm arm.yaml --columns map.yaml    other names and units
+  circlepoint check log.csv --arm arm.yaml --json
+"""
+
+_WIDTH = 118
+
+
+def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Add the command."""
+    parser = add_command(
+        commands, common, "check", summary="what is in a log, what is missing", text=_TEXT, examples=_EXAMPLES
+    )
+    add_recording(parser)
+    parser.add_argument("--json", action="store_true", help="print the answer as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    from circlepoint.check import check_recording  # noqa: PLC0415  (keeps `circlepoint --help` quick)
+    from circlepoint.recording_io import read_recording  # noqa: PLC0415
+
+    arm = load_arm(options.arm)
+    loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
+    result = check_recording(loaded, arm, gravity=options.gravity)
+    print(json.dumps(check_document(result), indent=1, allow_nan=False) if options.json else format_check(result))
+    return 0 if result.ready else 1
+
+
+def check_document(result: LogCheck) -> dict[str, Any]:
+    """Return the answer as JSON has it; SI units and radians."""
+    recording = result.loaded.recording
+    return {
+        "ready": result.ready,
+        "files": [_file_document(file) for file in result.loaded.files],
+        "samples": int(recording.samples),
+        "sample_rate": recording.sample_rate,
+        "spans": len(recording.spans),
+        "clocks": [
+            {"offset": clock.offset, "offset_std": clock.offset_std, "rate": clock.rate, "rate_std": clock.rate_std}
+            for clock in result.loaded.clock_alignments
+        ],
+        "rests": result.rests,
+        "rest_magnitude": result.rest_magnitude,
+        "rest_magnitude_std": result.rest_magnitude_std,
+        "rest_noise": result.rest_noise,
+        "gravity": result.gravity,
+        "joints": [_joint_document(joint) for joint in result.joints],
+        "findings": finding_entries(result.findings),
+    }
+
+
+def format_check(result: LogCheck) -> str:
+    """Return the answer on one screen."""
+    recording = result.loaded.recording
+    lines = [_file_line(file) for file in result.loaded.files]
+    lines += [
+        f"clocks      sensor time = {clock.offset:.4f} s + {clock.rate:.6f} x joint time  "
+        f"(std {clock.offset_std:.2g} s, {clock.rate_std:.2g})"
+        for clock in result.loaded.clock_alignments
+    ]
+    lines.append(
+        f"recording   {recording.samples} samples at {recording.sample_rate:.6g} Hz in {len(recording.spans)} "
+        f"span{'s' if len(recording.spans) != 1 else ''}, {recording.joints} joints"
+    )
+    lines.append(_rest_line(result))
+    lines += ["", *_joint_table(result.joints), ""]
+    lines += _wrapped([f"{joint.joint.name}: {joint.advice}" for joint in result.joints if joint.advice], "to record")
+    lines += _wrapped([finding.message for finding in result.findings], "findings")
+    missing = [joint.joint.name for joint in result.joints if joint.status == "missing"]
+    lines.append(
+        f"{len(missing)} of {len(result.joints)} joints cannot be calibrated from this log: {', '.join(missing)}"
+        if missing
+        else "every joint can be calibrated from this log"
+    )
+    return "\n".join(lines)
+
+
+def _file_line(file: LogFile) -> str:
+    timeline = file.timeline
+    what = "joints, sensor" if file.joints and file.sensor else "joints" if file.joints else "sensor"
+    missing = sum(gap.missing for gap in timeline.gaps)
+    gaps = f"{len(timeline.gaps)} gaps ({missing} samples missing)" if timeline.gaps else "no gaps"
+    return (
+        f"{file.path.name:<11} {what}: {file.samples} samples, {timeline.duration:.1f} s, {timeline.sample_rate:.6g} "
+        f"Hz, "
+        f"jitter {1e3 * timeline.jitter_std:.3g} ms (max {1e3 * timeline.jitter_max:.3g}), {gaps}"
+    )
+
+
+def _rest_line(result: LogCheck) -> str:
+    if result.rest_magnitude is None or result.rest_magnitude_std is None or result.rest_noise is None:
+        return "at rest     the arm never rests: let all joints stand still for 1 s now and then"
+    deviation = 100 * (result.rest_magnitude / result.gravity - 1)
+    return (
+        f"at rest     {result.rests} rests, |f| = {result.rest_magnitude:.4f} m/s^2 ({deviation:+.2f} % of "
+        f"{result.gravity:.5f}), "
+        f"varying by {result.rest_magnitude_std:.2g}, noise {result.rest_noise:.2g} a sample"
+    )
+
+
+def _joint_table(joints: tuple[JointCheck, ...]) -> list[str]:
+    header = ["joint", "rests", "span", "motions", "travel", "moving", "rate", "gravity", "encoder step", "verdict"]
+    rows = [header, *(_joint_row(index, joint) for index, joint in enumerate(joints))]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(header))]
+    table = []
+    for row in rows:
+        cells = [
+            row[0].ljust(widths[0]),
+            *(cell.rjust(width) for cell, width in zip(row[1:-1], widths[1:-1], strict=True)),
+        ]
+        table.append("  ".join([*cells, row[-1]]).rstrip())
+    return [table[0], "-" * max(len(line) for line in table), *table[1:]]
+
+
+def _joint_row(index: int, check: JointCheck) -> list[str]:
+    factor, unit = (math.degrees(1), "deg") if check.joint.revolute else (1e3, "mm")
+    step = "-"
+    if check.encoder_step is not None:
+        step = f"{1e6 * check.encoder_step:.3g} u{check.joint.unit}"
+    return [
+        f"{index + 1} {check.joint.name}",
+        str(check.dwells),
+        f"{factor * check.dwell_span:.0f} {unit}" if check.dwells else "-",
+        str(check.motions),
+        f"{factor * check.motion_span:.0f} {unit}" if check.motions else "-",
+        f"{check.motion_time:.1f} s" if check.motions else "-",
+        f"{check.frequency:.2f} Hz" if check.frequency is not None else "-",
+        f"{check.gravity_share:.2f} g" if check.gravity_share is not None else "-",
+        step,
+        check.status,
+    ]
+
+
+def _wrapped(items: list[str], title: str) -> list[str]:
+    if not items:
+        return []
+    lines = [f"{title}:"]
+    for item in items:
+        lines += textwrap.wrap(item, _WIDTH, initial_indent="  - ", subsequent_indent="    ", break_on_hyphens=False)
+    return [*lines, ""]
+
+
+def _file_document(file: LogFile) -> dict[str, Any]:
+    timeline = file.timeline
+    gaps = [
+        {"start": gap.start, "length": gap.length, "missing": int(gap.missing), "filled": gap.filled}
+        for gap in timeline.gaps
+    ]
+    return {
+        "path": str(file.path),
+        "samples": file.samples,
+        "joints": file.joints,
+        "sensor": file.sensor,
+        "duration": timeline.duration,
+        "sample_rate": timeline.sample_rate,
+        "jitter_std": timeline.jitter_std,
+        "jitter_max": timeline.jitter_max,
+        "gaps": gaps,
+    }
+
+
+def _joint_document(check: JointCheck) -> dict[str, Any]:
+    return {
+        "name": check.joint.name,
+        "type": check.joint.type,
+        "status": check.status,
+        "advice": check.advice,
+        "tests": check.tests,
+        "dwells": check.dwells,
+        "dwell_span": check.dwell_span,
+        "motions": check.motions,
+        "motion_span": check.motion_span,
+        "motion_time": check.motion_time,
+        "frequency": check.frequency,
+        "encoder_step": check.encoder_step,
+        "gravity_share": check.gravity_share,
+    }

@@ -1,0 +1,113 @@
+"""Arguments in, exit status out; every failure becomes one clear message."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import traceback
+from typing import TYPE_CHECKING
+
+import circlepoint
+from circlepoint.cli import calibrate, check, demo, simulate
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+DONE = 0
+DATA_INSUFFICIENT = 1
+BAD_INPUT = 2
+INTERRUPTED = 130
+PIPE_CLOSED = 141
+
+_DESCRIPTION = "Calibrate the kinematics of a robot arm from a triaxial accelerometer on its end-point."
+_EPILOG = """\
+exit status:
+  0  done
+  1  the data does not allow it (says what is missing; what could be estimated is still written)
+  2  bad input (says file, line or field, value and remedy)
+
+examples:
+  circlepoint demo --out demo-result
+  circlepoint check log.csv --arm arm.yaml
+  circlepoint calibrate log.csv --arm arm.yaml --out result
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        Arguments without the program's name; those of the process by default.
+
+    Returns
+    -------
+    int
+        Exit status: 0 done, 1 the data does not allow it, 2 bad input, 130 interrupted.
+    """
+    arguments = _join_negative_lists(list(sys.argv[1:] if argv is None else argv))
+    try:
+        options = _parser().parse_args(arguments)
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else BAD_INPUT
+    try:
+        status: int = options.run(options)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        return _fail("interrupted; nothing was left half-written", INTERRUPTED)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return PIPE_CLOSED
+    except Exception as error:  # noqa: BLE001  (no traceback reaches a user who did not ask for it)
+        if options.debug:
+            traceback.print_exc()
+        return _fail(*_explain(error))
+    return status
+
+
+def _explain(error: Exception) -> tuple[str, int]:
+    """Return what to tell the user of a failure, and the exit status."""
+    if isinstance(error, circlepoint.NotIdentifiable | circlepoint.DidNotConverge):
+        return str(error), DATA_INSUFFICIENT
+    if isinstance(error, circlepoint.Error):
+        return str(error), BAD_INPUT
+    if isinstance(error, OSError):
+        place = f"{error.filename}: " if error.filename else ""
+        return f"{place}{error.strerror or error}", BAD_INPUT
+    if isinstance(error, MemoryError):
+        return "not enough memory for this recording; split it, or thin it out", BAD_INPUT
+    what = f"{type(error).__name__}: {error}"
+    return f"a fault in circlepoint itself, please report it: {what} (--debug shows where)", BAD_INPUT
+
+
+def _parser() -> argparse.ArgumentParser:
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--debug", action="store_true", help="show where in the program a failure came from")
+    parser = argparse.ArgumentParser(
+        prog="circlepoint",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"circlepoint {circlepoint.__version__}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in (demo, calibrate, check, simulate):
+        command.register(commands, common)
+    return parser
+
+
+def _join_negative_lists(arguments: list[str]) -> list[str]:
+    """``--reference-configuration -1.2,0.3`` as one word: argparse takes a leading minus for an option."""
+    joined: list[str] = []
+    words = iter(arguments)
+    for word in words:
+        value = next(words, None) if word == "--reference-configuration" else None
+        joined.append(word if value is None else f"{word}={value}")
+    return joined
+
+
+def _fail(message: str, status: int) -> int:
+    print(f"circlepoint: {message}", file=sys.stderr)
+    return status

@@ -1,0 +1,166 @@
+"""``circlepoint simulate``: a recording with its ground truth beside it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from circlepoint._core import InvalidInput
+from circlepoint.arm import Arm, load_arm
+from circlepoint.atomic import require_writable_folder, write_atomically
+from circlepoint.cli.options import Subparsers, add_command, positive, progress
+from circlepoint.column_map import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    import circlepoint
+    from circlepoint.document import Document
+
+_TEXT = """\
+Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,
+.csv.gz or .parquet) and what is true of it to <LOG without its ending>.truth.json. The arm is the nominal one of ARM,
+standing upright, with the sensor at its last Denavit-Hartenberg frame; the sensor is an individual of the kind given,
+drawn with the seed. The same seed gives the same recording."""
+
+_EXAMPLES = """\
+  circlepoint simulate plan.yaml --arm arm.yaml --sensor qa700 --out log.csv --seed 1
+  circlepoint simulate plan.yaml --arm arm.yaml --sensor sensor.yaml --out log.parquet --seed 7
+"""
+
+
+def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
+    """Add the command."""
+    parser = add_command(
+        commands, common, "simulate", summary="a recording with ground truth beside it", text=_TEXT, examples=_EXAMPLES
+    )
+    parser.add_argument("plan", type=Path, metavar="PLAN", help="the tests, plan.yaml")
+    parser.add_argument(
+        "--arm", type=Path, required=True, metavar="ARM", help="the arm's description with its nominal dh, arm.yaml"
+    )
+    parser.add_argument(
+        "--sensor",
+        required=True,
+        metavar="PRESET|FILE",
+        help="the kind of sensor: a preset's name or a data sheet file",
+    )
+    parser.add_argument("--out", type=Path, required=True, metavar="LOG", help="recording to write")
+    parser.add_argument("--seed", type=_seed, required=True, metavar="N", help="of the sensor's errors and its noise")
+    parser.add_argument(
+        "--gravity",
+        type=positive,
+        default=STANDARD_GRAVITY,
+        metavar="G",
+        help="local gravity, m/s^2 (default: %(default)s)",
+    )
+    parser.add_argument("--json", action="store_true", help="print the truth as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command."""
+    import numpy as np  # noqa: PLC0415  (keeps `circlepoint --help` quick)
+
+    import circlepoint  # noqa: PLC0415
+    from circlepoint.nominal import nominal_chain  # noqa: PLC0415
+    from circlepoint.protocol import load_plan  # noqa: PLC0415
+    from circlepoint.recording_files import recording_stem, require_format, write_recording  # noqa: PLC0415
+    from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
+
+    require_format(options.out)
+    require_writable_folder(options.out.parent)
+    arm = load_arm(options.arm)
+    if arm.dh is None:
+        raise InvalidInput(f"{options.arm}: has no `dh`; a simulation needs the arm's nominal parameters")
+    specification = load_sensor(options.sensor)
+    plan = load_plan(options.plan, arm.joint_names, [joint.type for joint in arm.joints])
+    nominal = nominal_chain(arm, plan.rest)
+    up_base = np.array([0.0, 0.0, options.gravity])
+    up_sensor = circlepoint.forward_kinematics(nominal, plan.rest)[:3, :3].T @ up_base
+    chain = circlepoint.rebase(nominal, plan.rest)
+    sensor = circlepoint.draw_accelerometer(specification, circlepoint.derive_seed(options.seed, 0))
+    with progress(2, quiet=options.json) as begin:
+        begin("simulating")
+        recording = circlepoint.simulate(
+            chain,
+            up_sensor,
+            sensor,
+            plan.trajectory(),
+            circlepoint.SimulationOptions(
+                noise_std=specification.noise_std,
+                range=specification.range,
+                encoder_counts_per_revolution=np.array([counts or 0.0 for counts in arm.encoder_counts or ()]),
+                seed=circlepoint.derive_seed(options.seed, 1),
+            ),
+        )
+        begin("writing")
+        truth = truth_document(arm, chain, up_sensor.tolist(), sensor, options.seed)
+        text = json.dumps(truth, indent=1, allow_nan=False) + "\n"
+        truth_path = options.out.with_name(f"{recording_stem(options.out)}.truth.json")
+        options.out.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(truth_path, text.encode())
+        write_recording(options.out, recording)
+    if options.json:
+        print(text, end="")
+    else:
+        print(
+            f"written: {options.out} ({recording.samples} samples at {recording.sample_rate:g} Hz, {recording.joints} "
+            f"joints), "
+            f"{truth_path}"
+        )
+    return 0
+
+
+def truth_document(
+    arm: Arm,
+    chain: circlepoint.ScrewChain,
+    gravity_sensor: list[float],
+    sensor: circlepoint.AccelerometerModel,
+    seed: int,
+) -> Document:
+    """Return what is true of a simulated recording, under the names of ``calibration.json``; SI units.
+
+    Parameters
+    ----------
+    arm : Arm
+        The arm.
+    chain : ScrewChain
+        Its axes in the sensor frame at the reference configuration.
+    gravity_sensor : list of float
+        m/s^2, what an ideal sensor reads at rest there.
+    sensor : AccelerometerModel
+        The individual sensor.
+    seed : int
+        What it was drawn with.
+    """
+    joints = [
+        {
+            "name": joint.name,
+            "type": joint.type,
+            "direction_sensor": axis.line.direction.tolist(),
+            "point_sensor": axis.line.point.tolist() if joint.revolute else None,
+        }
+        for joint, axis in zip(arm.joints, chain.axes, strict=True)
+    ]
+    return {
+        "schema": "circlepoint/truth/1",
+        "arm": arm.name,
+        "seed": seed,
+        "reference_configuration": chain.reference_configuration.tolist(),
+        "joints": joints,
+        "gravity_sensor": gravity_sensor,
+        "sensor": {
+            name: getattr(sensor, name).tolist()
+            for name in ("bias", "scale", "misalignment", "percussion_distance", "second_order")
+        },
+    }
+
+
+def _seed(text: str) -> int:
+    try:
+        seed = int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
+    if not 0 <= seed < 2**64:
+        raise argparse.ArgumentTypeError(f"{text} is not within 0 to 2^64 - 1")
+    return seed

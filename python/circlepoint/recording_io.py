@@ -1,0 +1,348 @@
+"""Recordings in files: CSV and Parquet, one clock or two, several files as one recording.
+
+A file with joint positions and specific force is a recording. Files with only the one and only the other come from two
+machines with two clocks: offset and rate between them are estimated, and the two become one recording. Several
+recordings become one, in the order given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+import circlepoint
+from circlepoint._core import InvalidInput
+from circlepoint.arm import Arm
+from circlepoint.column_map import (
+    ACCELERATION_UNITS,
+    RATE_UNITS,
+    STANDARD_GRAVITY,
+    TEMPERATURE_UNITS,
+    TIME_UNITS,
+    ColumnMap,
+    FileColumns,
+    find_columns,
+    load_column_map,
+    missing_joints,
+    missing_specific_force,
+)
+from circlepoint.findings import Finding
+from circlepoint.plausibility import (
+    encoder_findings,
+    encoder_step,
+    joint_findings,
+    specific_force_findings,
+    time_findings,
+    unwrap_joints,
+)
+from circlepoint.tables import TableFile, open_table, read_numbers, require_finite
+
+FloatArray = NDArray[np.float64]
+
+MIN_SAMPLES = 8
+"""Fewer rows have no sample rate."""
+
+
+@dataclass(frozen=True)
+class LogFile:
+    """What one file of a recording holds.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    samples : int
+        Rows.
+    joints, sensor : bool
+        Whether it holds joint positions, specific force.
+    timeline : TimelineReport
+        Rate, jitter and gaps of its stamps.
+    """
+
+    path: Path
+    samples: int
+    joints: bool
+    sensor: bool
+    timeline: circlepoint.TimelineReport
+
+
+@dataclass(frozen=True)
+class LoadedRecording:
+    """A recording and what reading it has shown.
+
+    Attributes
+    ----------
+    recording : Recording
+        All files as one, on a uniform clock.
+    files : tuple of LogFile
+        In the order given.
+    clock_alignments : tuple of ClockAlignment
+        One for each pair of joint and sensor files; empty where one clock stamped both.
+    encoder_steps : tuple of (float or None)
+        Smallest step seen of each joint, rad or m; None where it never moved.
+    findings : tuple of Finding
+        What is suspicious but legal.
+    """
+
+    recording: circlepoint.Recording
+    files: tuple[LogFile, ...]
+    clock_alignments: tuple[circlepoint.ClockAlignment, ...]
+    encoder_steps: tuple[float | None, ...]
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
+class _Log:
+    """One file's samples in SI units, each checked."""
+
+    table: TableFile
+    time: FloatArray
+    joint_positions: FloatArray | None
+    specific_force: FloatArray | None
+    angular_velocity: FloatArray | None
+    temperature: FloatArray | None
+    timeline: circlepoint.TimelineReport
+    findings: list[Finding]
+
+
+def read_recording(
+    paths: str | Path | Sequence[str | Path],
+    arm: Arm,
+    columns: str | Path | None = None,
+    *,
+    gravity: float = STANDARD_GRAVITY,
+) -> LoadedRecording:
+    """Read the files of a recording.
+
+    Parameters
+    ----------
+    paths : path or sequence of paths
+        CSV (``.csv``, ``.csv.gz``) or Parquet files with a time column and joint positions, specific force, or both.
+    arm : Arm
+        The arm that was recorded.
+    columns : path, optional
+        Column map for other names and units (see `circlepoint.column_map`).
+    gravity : float, optional
+        Local gravity, m/s^2, against which the accelerometer's unit is judged.
+
+    Returns
+    -------
+    LoadedRecording
+        The recording, with what reading it has shown.
+
+    Raises
+    ------
+    InvalidInput
+        When the files cannot be used as they are; the message names file, line, column, value and remedy.
+    """
+    files = [Path(paths)] if isinstance(paths, str | Path) else [Path(path) for path in paths]
+    if not files:
+        raise InvalidInput("no file was given; give the recording's files")
+    for index, path in enumerate(files):
+        if path in files[:index]:
+            raise InvalidInput(f"{path}: was given twice; give each file once")
+    column_map = load_column_map(columns, arm) if columns is not None else ColumnMap()
+    tables = [open_table(path) for path in files]
+    _require_stated_columns(tables, column_map)
+    found = [find_columns(table, arm, column_map) for table in tables]
+    _require_both_halves(tables, found, arm)
+    logs = [_read_log(table, names, arm, column_map, gravity) for table, names in zip(tables, found, strict=True)]
+    recordings, alignments = _assemble(logs)
+    recording = recordings[0] if len(recordings) == 1 else circlepoint.concatenate(recordings)
+    steps = _encoder_steps(logs, len(arm.joints))
+    findings = [finding for log in logs for finding in log.findings]
+    return LoadedRecording(
+        recording=recording,
+        files=tuple(_describe(log) for log in logs),
+        clock_alignments=tuple(alignments),
+        encoder_steps=steps,
+        findings=(*findings, *encoder_findings(steps, arm)),
+    )
+
+
+def _require_stated_columns(tables: Sequence[TableFile], column_map: ColumnMap) -> None:
+    present = {name for table in tables for name in table.columns}
+    for quantity, name in column_map.names.items():
+        if name not in present and column_map.source is not None:
+            found = "; ".join(f"{table.path} has {', '.join(table.columns[:40])}" for table in tables)
+            raise column_map.source.error((quantity,), f"names the column {name!r}, which no file has: {found}")
+
+
+def _require_both_halves(tables: Sequence[TableFile], found: Sequence[FileColumns], arm: Arm) -> None:
+    joints = [table for table, names in zip(tables, found, strict=True) if names.specific_force is None]
+    sensors = [table for table, names in zip(tables, found, strict=True) if names.joints is None]
+    if joints and not sensors:
+        raise joints[0].error(missing_specific_force(joints[0]))
+    if sensors and not joints:
+        raise sensors[0].error(missing_joints(sensors[0], arm))
+    if len(joints) != len(sensors):
+        listed = f"joints: {_paths(joints)}; sensor: {_paths(sensors)}"
+        raise InvalidInput(
+            f"{len(joints)} files hold only joint positions and {len(sensors)} only specific force ({listed}); they "
+            f"are taken in pairs in "
+            "the order given, so there must be as many of each"
+        )
+
+
+def _paths(tables: Iterable[TableFile]) -> str:
+    return ", ".join(str(table.path) for table in tables)
+
+
+def _read_log(table: TableFile, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> _Log:
+    wanted = [names.time, *(names.joints or ()), *(names.specific_force or ()), *(names.angular_velocity or ())]
+    data = read_numbers(table, [*wanted, *([names.temperature] if names.temperature else [])])
+    rows = data[names.time].size
+    if rows < MIN_SAMPLES:
+        raise table.error(
+            f"has {rows} samples, at least {MIN_SAMPLES} are needed (a calibration takes minutes of them)"
+        )
+    for name in (names.time, *(names.joints or ()), *(names.specific_force or ())):
+        require_finite(table, name, data[name])
+    source = str(table.path)
+    time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
+    _require_order(table, names.time, data[names.time])
+    timeline = _timeline(table, time)
+    findings = [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
+    findings += time_findings(time, timeline.sample_rate, source, column_map)
+    positions = force = None
+    if names.joints:
+        factors = [column_map.joint_factor(arm, index) for index in range(len(arm.joints))]
+        positions = np.column_stack([data[name] * factor for name, factor in zip(names.joints, factors, strict=True)])
+        findings += joint_findings(positions, arm, source, column_map)
+        positions, jumps = unwrap_joints(positions, time, arm, source)
+        findings += jumps
+    if names.specific_force:
+        force = np.column_stack([data[name] for name in names.specific_force])
+        force *= ACCELERATION_UNITS[column_map.units.get("a", "m/s^2")]
+        findings += specific_force_findings(
+            time, force, names.specific_force, source, column_map=column_map, gravity=gravity
+        )
+    gyroscope, temperature, more = _optional_columns(table, names, data, time, column_map)
+    return _Log(table, time, positions, force, gyroscope, temperature, timeline, [*findings, *more])
+
+
+def _require_order(table: TableFile, name: str, stamps: FloatArray) -> None:
+    backwards = np.flatnonzero(np.diff(stamps) < 0)
+    if backwards.size:
+        row = int(backwards[0]) + 1
+        raise table.error(
+            f"time runs backwards: column `{name}` is {stamps[row]:.12g} after {stamps[row - 1]:.12g} "
+            f"({backwards.size} such rows); sort "
+            "the rows, or split the log there into two files",
+            row,
+        )
+
+
+def _timeline(table: TableFile, time: FloatArray) -> circlepoint.TimelineReport:
+    if time[0] == time[-1]:
+        raise table.error(f"time stands still: every stamp is {time[0]:.12g} s; log the time each sample was taken")
+    timeline = circlepoint.analyse_timeline(time)
+    if timeline.surplus:
+        first = timeline.surplus[0]
+        raise table.error(
+            f"the time stamp {first.value:.12g} s comes again, and the rows around it are more than the "
+            f"{timeline.sample_rate:.6g} Hz clock can "
+            f"have made ({len(timeline.surplus)} such rows): rows written twice, or stamps that are too coarse; "
+            f"remove the repeated rows",
+            int(first.index),
+        )
+    return timeline
+
+
+def _optional_columns(
+    table: TableFile, names: FileColumns, data: dict[str, FloatArray], time: FloatArray, column_map: ColumnMap
+) -> tuple[FloatArray | None, FloatArray | None, list[Finding]]:
+    """Gyroscope and temperature, where they can be used; a finding where not."""
+    findings: list[Finding] = []
+    gyroscope = temperature = None
+    if names.angular_velocity:
+        gyroscope = (
+            np.column_stack([data[name] for name in names.angular_velocity])
+            * RATE_UNITS[column_map.units.get("g", "rad/s")]
+        )
+        if not np.isfinite(gyroscope).all():
+            findings.append(Finding("gyroscope", f"{table.path}: the gyroscope's columns have empty cells: not used"))
+            gyroscope = None
+        elif np.abs(gyroscope).max() > 40.0 and "g" not in column_map.units:
+            largest = np.abs(gyroscope).max()
+            findings.append(
+                Finding(
+                    "gyroscope",
+                    f"{table.path}: the gyroscope reads up to {largest:.4g} rad/s: if that is deg/s, add `units: "
+                    f"{{g: deg/s}}` to a column map",
+                )
+            )
+    if names.temperature:
+        factor, shift = TEMPERATURE_UNITS[column_map.units.get("temp", "C")]
+        values = data[names.temperature] * factor + shift
+        known = np.isfinite(values)
+        if known.any():
+            temperature = np.interp(time, time[known], values[known])
+        if not known.all():
+            share = f"{np.count_nonzero(~known)} of {known.size} cells of `{names.temperature}` are empty"
+            done = "interpolated between the others" if known.any() else "not used"
+            findings.append(Finding("temperature", f"{table.path}: {share}: {done}"))
+    return gyroscope, temperature, findings
+
+
+def _assemble(logs: Sequence[_Log]) -> tuple[list[circlepoint.Recording], list[circlepoint.ClockAlignment]]:
+    recordings: list[circlepoint.Recording] = []
+    alignments: list[circlepoint.ClockAlignment] = []
+    sensors = iter([log for log in logs if log.joint_positions is None])
+    for log in logs:
+        if log.joint_positions is None:
+            continue
+        if log.specific_force is not None:
+            recordings.append(
+                circlepoint.make_recording(
+                    log.time,
+                    log.joint_positions,
+                    log.specific_force,
+                    angular_velocity=log.angular_velocity,
+                    temperature=log.temperature,
+                )
+            )
+            continue
+        recording, alignment = _on_two_clocks(log, next(sensors))
+        recordings.append(recording)
+        alignments.append(alignment)
+    return recordings, alignments
+
+
+def _on_two_clocks(joints: _Log, sensor: _Log) -> tuple[circlepoint.Recording, circlepoint.ClockAlignment]:
+    try:
+        alignment = circlepoint.align_clocks(joints.time, joints.joint_positions, sensor.time, sensor.specific_force)
+        recording = circlepoint.make_recording(
+            joints.time,
+            joints.joint_positions,
+            sensor.time,
+            sensor.specific_force,
+            alignment.clock,
+            angular_velocity=sensor.angular_velocity,
+            temperature=sensor.temperature,
+        )
+    except circlepoint.Error as error:
+        raise type(error)(f"{joints.table.path} and {sensor.table.path}: {error}") from error
+    return recording, alignment
+
+
+def _encoder_steps(logs: Sequence[_Log], joints: int) -> tuple[float | None, ...]:
+    steps: list[float | None] = []
+    for index in range(joints):
+        seen = [encoder_step(log.joint_positions[:, index]) for log in logs if log.joint_positions is not None]
+        steps.append(min((step for step in seen if step is not None), default=None))
+    return tuple(steps)
+
+
+def _describe(log: _Log) -> LogFile:
+    return LogFile(
+        path=log.table.path,
+        samples=int(log.time.size),
+        joints=log.joint_positions is not None,
+        sensor=log.specific_force is not None,
+        timeline=log.timeline,
+    )

@@ -1,0 +1,164 @@
+"""YAML files read strictly: every complaint names the file, the line, the field and its value."""
+
+import math
+import re
+from collections.abc import Hashable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from circlepoint._core import InvalidInput
+
+# YAML 1.1 reads 1e-3 (no point) as text; people write it all the same.
+_FLOAT_WITHOUT_POINT = re.compile(r"[-+]?\d[\d_]*[eE][-+]?\d+")
+
+
+@dataclass(frozen=True)
+class YamlFile:
+    """The content of a YAML file whose top level is a mapping, with the line of each field."""
+
+    path: Path
+    data: dict[Any, Any]
+    lines: dict[tuple[Hashable, ...], int] = field(repr=False)
+
+    def error(self, where: tuple[Hashable, ...], message: str) -> InvalidInput:
+        """Return an InvalidInput about the field at `where` (keys and list indices from the top)."""
+        known = where
+        while known and known not in self.lines:
+            known = known[:-1]
+        line = f", line {self.lines[known]}" if known in self.lines else ""
+        name = field_name(where)
+        return InvalidInput(f"{self.path}{line}: {name + ': ' if name else ''}{message}")
+
+    def only_keys(self, where: tuple[Hashable, ...], mapping: Any, allowed: Iterable[str]) -> dict[str, Any]:
+        """Return `mapping` itself, when it is one and has no other key than the allowed ones."""
+        allowed = list(allowed)
+        if not isinstance(mapping, dict):
+            raise self.error(where, f"is {describe(mapping)}, must be a mapping with the keys {', '.join(allowed)}")
+        for key in mapping:
+            if key not in allowed:
+                raise self.error((*where, key), f"unknown key; the keys known here are {', '.join(allowed)}")
+        return mapping
+
+    def number(self, where: tuple[Hashable, ...], value: Any) -> float:
+        """`value` as a finite float."""
+        if isinstance(value, str) and _FLOAT_WITHOUT_POINT.fullmatch(value.strip()):
+            value = float(value)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.error(where, f"is {describe(value)}, must be a number{_as_number(value)}")
+        if not math.isfinite(value):
+            raise self.error(where, f"is {value}, must be a finite number")
+        return float(value)
+
+    def text(self, where: tuple[Hashable, ...], value: Any) -> str:
+        """`value` as a non-empty string."""
+        if not isinstance(value, str) or not value.strip():
+            raise self.error(where, f"is {describe(value)}, must be a non-empty text")
+        return value
+
+
+def load_yaml(path: str | Path) -> YamlFile:
+    """Read a YAML file whose top level is a mapping.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    YamlFile
+        Content and line numbers.
+
+    Raises
+    ------
+    InvalidInput
+        When the file cannot be read, is not YAML, repeats a key, or is not a mapping.
+    """
+    path = Path(path)
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise InvalidInput(
+            f"{path}: cannot be read ({error.strerror or error}); check the path and its permissions"
+        ) from error
+    except UnicodeDecodeError as error:
+        raise InvalidInput(
+            f"{path}: is not a text file (byte {error.start} is not UTF-8); a YAML file is needed"
+        ) from error
+    lines: dict[tuple[Hashable, ...], int] = {}
+    try:
+        loader = yaml.SafeLoader(text)
+        try:
+            root = loader.get_single_node()
+            if root is not None:
+                _collect_lines(path, root, (), lines)
+            data = None if root is None else loader.construct_document(root)
+        finally:
+            loader.dispose()
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        where = f", line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise InvalidInput(f"{path}{where}: is not valid YAML: {error.problem or error}") from error
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise InvalidInput(f"{path}: is not valid YAML: {error}") from error
+    if data is None:
+        raise InvalidInput(f"{path}: is empty; a YAML mapping is needed")
+    if not isinstance(data, dict):
+        raise InvalidInput(f"{path}: its top level is {describe(data)}, must be a mapping (key: value lines)")
+    return YamlFile(path, data, lines)
+
+
+def field_name(where: tuple[Hashable, ...]) -> str:
+    """`("dh", "rows", 2, "alpha")` as ``dh.rows[2].alpha`` (list indices from 0)."""
+    name = ""
+    for key in where:
+        name += f"[{key}]" if isinstance(key, int) and name else f"{'.' if name else ''}{key}"
+    return name
+
+
+def describe(value: Any) -> str:
+    """Return a value as a message shows it: short, with its kind when that is not obvious."""
+    if value is None:
+        return "empty"
+    if isinstance(value, dict):
+        return "a mapping"
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    shown = repr(value)
+    return shown if len(shown) <= 60 else shown[:57] + "..."
+
+
+def _as_number(value: Any) -> str:
+    expression = (
+        re.fullmatch(r"\s*([-+]?)\s*(\d*\.?\d*)\s*\*?\s*pi\s*(?:/\s*(\d+\.?\d*))?\s*", value)
+        if isinstance(value, str)
+        else None
+    )
+    if not expression:
+        return ""
+    sign, factor, divisor = expression.groups()
+    number = float(factor or 1.0) * math.pi / float(divisor or 1.0)
+    return f": write {'-' if sign == '-' else ''}{number!r}"
+
+
+def _collect_lines(
+    path: Path, node: yaml.Node, where: tuple[Hashable, ...], lines: dict[tuple[Hashable, ...], int]
+) -> None:
+    lines.setdefault(where, node.start_mark.line + 1)
+    if isinstance(node, yaml.MappingNode):
+        for key_node, value_node in node.value:
+            key = key_node.value if isinstance(key_node, yaml.ScalarNode) else str(key_node.start_mark.line)
+            child = (*where, key)
+            if child in lines:
+                line = key_node.start_mark.line + 1
+                raise InvalidInput(
+                    f"{path}, line {line}: {field_name(child)}: was given on line {lines[child]} already; keep one"
+                )
+            lines[child] = key_node.start_mark.line + 1
+            _collect_lines(path, value_node, child, lines)
+    elif isinstance(node, yaml.SequenceNode):
+        for index, item in enumerate(node.value):
+            _collect_lines(path, item, (*where, index), lines)
