@@ -175,8 +175,4 @@ def is_estimated(joint: Document) -> bool:
 def predicted_end_point_std(document: Document) -> tuple[float | None, float | None]:
     """Return the end-point's predicted standard deviation over the workspace: rms and largest, m."""
     end_point = document.get("end_point") or {}
-
-    def first(*names: str) -> float | None:
-        return next((found for name in names if (found := number(end_point.get(name))) is not None), None)
-
-    return first("rms", "rms_std", "std_rms"), first("max", "max_std", "std_max")
+    return number(end_point.get("rms")), number(end_point.get("max"))

@@ -16,12 +16,12 @@ from circlepoint.report.summary import findings, key_numbers, method_name, next_
 _policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 _labels = {
     "samples": "samples used",
-    "samples_used": "samples used",
-    "noise": "noise, m/s²",
-    "noise_std": "noise, m/s²",
+    "noise_std": "noise of a sample, m/s²",
     "normalised_residual_rms": "normalised residual rms",
+    "static_noise_std": "noise of dwell means, m/s²",
+    "residual_rms": "residual rms, m/s²",
+    "parameters": "parameters asked for",
     "condition_number": "condition number",
-    "near_parallel": "nearly parallel neighbours",
 }
 
 
@@ -145,7 +145,7 @@ def _dh_section(document: Document) -> str:
         text = "There are no parameters yet: they follow from the lines of all joints, and some are missing."
         return section("dh", "Denavit-Hartenberg parameters", [paragraph(text)])
     parts = [tables.dh_table(document)]
-    parallel = _near_parallel(dh.get("near_parallel"), document["joints"])
+    parallel = "; ".join(" and ".join(pair) for pair in dh.get("near_parallel") or [])
     if parallel:
         text = f"Nearly parallel neighbours: {parallel}. Their common normal, and so a and d, is poorly defined; "
         parts.append(
@@ -220,28 +220,6 @@ def _reading_section(drawings: Drawings, truth: Mapping[str, Any] | None) -> str
         )
         entries.append(("True error", text))
     return section("reading", "How to read this", [definitions(entries)])
-
-
-def _near_parallel(entries: Any, joints: Sequence[Document]) -> str:
-    if not isinstance(entries, Sequence) or isinstance(entries, str):
-        return ""
-    named = []
-    for index, entry in enumerate(entries):
-        if isinstance(entry, bool):
-            named += (
-                [f"{joints[index]['name']} and {joints[index + 1]['name']}"]
-                if entry and index + 1 < len(joints)
-                else []
-            )
-        elif isinstance(entry, int):
-            named += (
-                [f"{joints[entry]['name']} and {joints[entry + 1]['name']}"] if 0 <= entry < len(joints) - 1 else []
-            )
-        elif isinstance(entry, Sequence) and not isinstance(entry, str):
-            named.append(" and ".join(str(joints[i]["name"]) if isinstance(i, int) else str(i) for i in entry))
-        else:
-            named.append(str(entry))
-    return "; ".join(named)
 
 
 def _shown(value: Any) -> str:

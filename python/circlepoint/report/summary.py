@@ -88,7 +88,9 @@ def key_numbers(document: Document, truth: Mapping[str, Any] | None) -> list[Key
 
 def next_tests(document: Document) -> list[str]:
     """Return what to record next: what the findings ask for, else one test for each missing joint."""
-    asked = [str(finding["text"]) for finding in document.get("findings") or [] if finding.get("level") in _ask_levels]
+    asked = [
+        _finding_text(finding) for finding in document.get("findings") or [] if finding.get("level") in _ask_levels
+    ]
     if asked:
         return asked
     joints: Sequence[Document] = document["joints"]
@@ -110,7 +112,7 @@ def findings(document: Document) -> list[tuple[str, str, str]]:
     """Return each finding's style, heading and text, worst first; requests for tests are not among them."""
     order = {"error": ("bad", "Missing"), "warning": ("warn", "Warning"), "info": ("note", "Note")}
     listed = [
-        (*order.get(str(finding.get("level")), order["info"]), str(finding.get("text", "")))
+        (*order.get(str(finding.get("level")), order["info"]), _finding_text(finding))
         for finding in document.get("findings") or []
         if finding.get("level") not in _ask_levels
     ]
@@ -121,6 +123,10 @@ def findings(document: Document) -> list[tuple[str, str, str]]:
 
 
 _ask_levels = frozenset({"next", "action", "advice"})
+
+
+def _finding_text(finding: Document) -> str:
+    return str(finding.get("text", finding.get("message", "")))
 
 
 def _combination(entry: Any) -> str:

@@ -80,10 +80,10 @@ def make_document(names):
         "joints": joints,
         "gravity_sensor": list(gravity),
         "sensor": {
-            "bias": {"value": [0.0049, -0.0021, 0.0032], "std": [3.1e-4, 2.2e-4, 4.0e-4]},
-            "scale": {"value": [2.1e-5, -1.3e-4, 9.4e-5], "std": [1.1e-5, 1.3e-5, 1.2e-5]},
-            "misalignment": {"value": [3e-5, -4e-5, 1e-5], "std": [1.1e-5, 1.4e-5, 1.2e-5]},
-            "percussion_distance": {"value": [0.0182, 0.0183, 0.0181], "std": [8e-5, 7e-5, 9e-5]},
+            "bias": {"estimate": [0.0049, -0.0021, 0.0032], "std": [3.1e-4, 2.2e-4, 4.0e-4]},
+            "scale": {"estimate": [2.1e-5, -1.3e-4, 9.4e-5], "std": [1.1e-5, 1.3e-5, 1.2e-5]},
+            "misalignment": {"estimate": [3e-5, -4e-5, 1e-5], "std": [1.1e-5, 1.4e-5, 1.2e-5]},
+            "percussion_distance": {"estimate": [0.0182, 0.0183, 0.0181], "std": [8e-5, 7e-5, 9e-5]},
             "clock_offset": None,
             "clock_rate": None,
         },
@@ -97,7 +97,7 @@ def make_document(names):
         "identifiability": {"rank": 40, "condition_number": 4.2e3, "unseen": []},
         "fit": {
             "samples": 57575,
-            "noise": 0.0103,
+            "noise_std": 0.0103,
             "normalised_residual_rms": 1.003,
             "iterations": 6,
             "converged": True,

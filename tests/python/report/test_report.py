@@ -123,6 +123,20 @@ def test_missing_joint_is_named_with_its_reason_and_a_test_to_record(tmp_path, i
     assert "There are no parameters yet" in page.text
 
 
+def test_findings_and_nearly_parallel_neighbours_are_said(tmp_path, brief_calibration):
+    brief_calibration.document["findings"] = [
+        {"level": "warning", "text": "The sensor clipped at 12.3 s."},
+        {"code": "gap", "message": "0.4 s are missing after 7.1 s.", "joint": None},
+        {"level": "next", "text": "Turn joint2 with the arm stretched out."},
+    ]
+    brief_calibration.document["dh"]["near_parallel"] = [["joint2", "joint3"], ["joint3", "joint4"]]
+    text = Page(written(tmp_path, brief_calibration)).text
+    assert "Warning The sensor clipped at 12.3 s." in text
+    assert "Note 0.4 s are missing after 7.1 s." in text
+    assert "Next Turn joint2 with the arm stretched out." in text
+    assert "Nearly parallel neighbours: joint2 and joint3; joint3 and joint4." in text
+
+
 def test_nothing_estimated_still_makes_a_page(tmp_path, calibration):
     for joint in calibration.document["joints"]:
         for key in ("direction_sensor", "point_sensor", "direction_std", "point_std", "covariance"):
