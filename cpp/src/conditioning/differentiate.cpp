@@ -6,6 +6,7 @@
 #include <string>
 
 #include "circlepoint/core/error.hpp"
+#include "result_memory.hpp"
 
 namespace circlepoint {
 namespace {
@@ -42,31 +43,35 @@ SamplesX window_weights(const Eigen::Ref<const Eigen::VectorXd>& positions, Inde
   return (fit.householderQ() * padded).transpose() / std::pow(scale * delta, deriv);
 }
 
-// y[i] = sum_j weights[j] (x[i + j step] + sign x[i - j step]) over a flat array; weights[0] counts the centre once.
-void symmetric_correlation(const double* x, double* y, Index values, const Eigen::VectorXd& weights, double sign,
-                           Index step) {
-  constexpr Index tile = 16;
+template <bool Symmetric>
+double paired(double after, double before) {
+  return Symmetric ? after + before : after - before;
+}
+
+// y[i] = w[0] x[i] + sum_j w[j] (x[i + j step] +- x[i - j step]) over a flat array, a tile of results at a time.
+template <bool Symmetric>
+void correlate(const double* x, double* y, Index values, const Eigen::VectorXd& weights, Index step) {
+  constexpr Index tile = 8;
   const double* w = weights.data();
   const Index half = weights.size() - 1;
   Index i = 0;
   for (; i + tile <= values; i += tile) {
-    double sum[tile];
-    for (Index k = 0; k < tile; ++k) {
-      sum[k] = w[0] * x[i + k];
-    }
+    Eigen::Array<double, tile, 1> sum = w[0] * Eigen::Map<const Eigen::Array<double, tile, 1>>(x + i);
     for (Index j = 1; j <= half; ++j) {
-      const double* after = x + i + j * step;
-      const double* before = x + i - j * step;
-      for (Index k = 0; k < tile; ++k) {
-        sum[k] += w[j] * (after[k] + sign * before[k]);
+      const Eigen::Map<const Eigen::Array<double, tile, 1>> after(x + i + j * step);
+      const Eigen::Map<const Eigen::Array<double, tile, 1>> before(x + i - j * step);
+      if constexpr (Symmetric) {
+        sum += w[j] * (after + before);
+      } else {
+        sum += w[j] * (after - before);
       }
     }
-    std::copy_n(sum, tile, y + i);
+    Eigen::Map<Eigen::Array<double, tile, 1>>(y + i) = sum;
   }
   for (; i < values; ++i) {
     double sum = w[0] * x[i];
     for (Index j = 1; j <= half; ++j) {
-      sum += w[j] * (x[i + j * step] + sign * x[i - j * step]);
+      sum += w[j] * paired<Symmetric>(x[i + j * step], x[i - j * step]);
     }
     y[i] = sum;
   }
@@ -80,9 +85,8 @@ SamplesX gradient(const Eigen::Ref<const SamplesX>& y, double dx, int edge_order
   const Index n = y.rows();
   require(n > edge_order, "a gradient of edge order " + std::to_string(edge_order) + " needs " +
                               std::to_string(edge_order + 1) + " samples or more, there are " + std::to_string(n));
-  SamplesX slope(n, y.cols());
-  slope.middleRows(1, n - 2 < 0 ? 0 : n - 2) =
-      (y.bottomRows(n - 2 < 0 ? 0 : n - 2) - y.topRows(n - 2 < 0 ? 0 : n - 2)) / (2.0 * dx);
+  SamplesX slope = detail::unwritten_samples(n, y.cols());
+  slope.middleRows(1, n - 2) = (y.bottomRows(n - 2) - y.topRows(n - 2)) / (2.0 * dx);
   if (edge_order == 1) {
     slope.row(0) = (y.row(1) - y.row(0)) / dx;
     slope.row(n - 1) = (y.row(n - 1) - y.row(n - 2)) / dx;
@@ -108,10 +112,10 @@ SamplesX savgol_filter(const Eigen::Ref<const SamplesX>& x, Index window_length,
           "delta is " + std::to_string(delta) + "; give the spacing of the samples");
   const Index half = window_length / 2;
   const Index channels = x.cols();
-  SamplesX y(n, channels);
   if (deriv > polyorder) {
     return SamplesX::Zero(n, channels);
   }
+  SamplesX y = detail::unwritten_samples(n, channels);
   const Eigen::VectorXd positions = Eigen::VectorXd::LinSpaced(window_length, 0.0, static_cast<double>(2 * half));
   const SamplesX weights = window_weights(positions, window_length, polyorder, deriv, delta);
   y.topRows(half) = weights.topRows(half) * x.topRows(window_length);
@@ -120,14 +124,16 @@ SamplesX savgol_filter(const Eigen::Ref<const SamplesX>& x, Index window_length,
   // Weights of an even derivative are symmetric about the centre, of an odd one antisymmetric.
   const double sign = deriv % 2 == 0 ? 1.0 : -1.0;
   const Eigen::RowVectorXd centre = weights.row(half);
-  Eigen::VectorXd one_sided = 0.5 * (centre.tail(half + 1) + sign * centre.head(half + 1).reverse()).transpose();
-  if (x.outerStride() == channels) {
-    symmetric_correlation(x.data() + half * channels, y.data() + half * channels, (n - 2 * half) * channels,
-                          one_sided, sign, channels);
+  const Eigen::VectorXd one_sided =
+      0.5 * (centre.tail(half + 1) + sign * centre.head(half + 1).reverse()).transpose();
+  const SamplesX copy = x.outerStride() == channels ? SamplesX() : SamplesX(x);
+  const double* inner_x = (x.outerStride() == channels ? x.data() : copy.data()) + half * channels;
+  double* inner_y = y.data() + half * channels;
+  const Index inner_values = (n - 2 * half) * channels;
+  if (deriv % 2 == 0) {
+    correlate<true>(inner_x, inner_y, inner_values, one_sided, channels);
   } else {
-    const SamplesX contiguous = x;
-    symmetric_correlation(contiguous.data() + half * channels, y.data() + half * channels,
-                          (n - 2 * half) * channels, one_sided, sign, channels);
+    correlate<false>(inner_x, inner_y, inner_values, one_sided, channels);
   }
   return y;
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "circlepoint/core/error.hpp"
+#include "result_memory.hpp"
 
 namespace circlepoint {
 namespace {
@@ -116,7 +117,7 @@ template <typename Kernel>
 SamplesX integrate(const Eigen::Ref<const SamplesX>& y, std::optional<double> initial, const Kernel& kernel) {
   const Index first = initial ? 1 : 0;
   const Index channels = y.cols();
-  SamplesX result(y.rows() - 1 + first, channels);
+  SamplesX result = detail::unwritten_samples(y.rows() - 1 + first, channels);
   if (initial) {
     result.row(0).setConstant(*initial);
   }

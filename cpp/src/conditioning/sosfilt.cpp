@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "circlepoint/core/error.hpp"
+#include "result_memory.hpp"
 #include "sos_kernel.hpp"
 
 namespace circlepoint {
@@ -84,7 +85,7 @@ class Cascade {
 SamplesX sosfilt(const Eigen::Ref<const SecondOrderSections>& sos, const Eigen::Ref<const SamplesX>& x) {
   const Cascade cascade(sos);
   SamplesX state = SamplesX::Zero(2 * cascade.size(), x.cols());
-  SamplesX y(x.rows(), x.cols());
+  SamplesX y = detail::unwritten_samples(x.rows(), x.cols());
   cascade.forwards(state, x, y);
   return y;
 }
@@ -120,7 +121,7 @@ SamplesX sosfiltfilt(const Eigen::Ref<const SecondOrderSections>& sos, const Eig
   SamplesX head = extension(x, padtype, edge, false);
   SamplesX tail = extension(x, padtype, edge, true);
   SamplesX state = edge > 0 ? steady_state(zi, head.row(0)) : steady_state(zi, x.row(0));
-  SamplesX y(x.rows(), x.cols());
+  SamplesX y = detail::unwritten_samples(x.rows(), x.cols());
   cascade.forwards(state, head, head);
   cascade.forwards(state, x, y);
   cascade.forwards(state, tail, tail);

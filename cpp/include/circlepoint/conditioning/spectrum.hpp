@@ -24,8 +24,8 @@ struct PowerSpectrum {
 
 struct WelchOptions {
   Window window = Window::hann;
-  std::optional<Index> nperseg;   ///< samples a segment; by default 256, or the whole signal when it is shorter
-  std::optional<Index> noverlap;  ///< samples shared by neighbouring segments; by default half a segment
+  std::optional<Index> nperseg = {};   ///< samples a segment; by default 256, or the whole signal when it is shorter
+  std::optional<Index> noverlap = {};  ///< samples shared by neighbouring segments; by default half a segment
   Detrend detrend = Detrend::constant;
   SpectrumScaling scaling = SpectrumScaling::density;
 };
