@@ -3,16 +3,22 @@
 #include <string>
 
 #include "circlepoint/core/error.hpp"
+#include "pose_rows.hpp"
 
 namespace circlepoint {
 namespace {
 
+// The message is built only when it is needed: this runs once a sample.
 void require_size(const ScrewChain& chain, Index size, const char* name) {
-  require(size == chain.size(), std::string(name) + " has " + std::to_string(size) + " entries for a chain of " +
-                                    std::to_string(chain.size()) + " joints; give one per joint, base to tip");
-  require(chain.reference_configuration.size() == chain.size(),
-          "reference_configuration has " + std::to_string(chain.reference_configuration.size()) +
-              " entries for a chain of " + std::to_string(chain.size()) + " joints; give one per joint, base to tip");
+  if (size != chain.size()) {
+    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " entries for a chain of " +
+                       std::to_string(chain.size()) + " joints; give one per joint, base to tip");
+  }
+  if (chain.reference_configuration.size() != chain.size()) {
+    throw InvalidInput("reference_configuration has " + std::to_string(chain.reference_configuration.size()) +
+                       " entries for a chain of " + std::to_string(chain.size()) +
+                       " joints; give one per joint, base to tip");
+  }
 }
 
 }  // namespace
@@ -24,6 +30,10 @@ RigidTransform forward_kinematics(const ScrewChain& chain, const Eigen::Ref<cons
     pose = screw_exp(chain.axes[static_cast<std::size_t>(i)], q[i] - chain.reference_configuration[i]) * pose;
   }
   return pose;
+}
+
+SamplesX forward_kinematics_rows(const ScrewChain& chain, const Eigen::Ref<const SamplesX>& q) {
+  return pose_rows(chain, q);
 }
 
 FrameMotion frame_motion(const ScrewChain& chain, const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -70,8 +80,10 @@ Eigen::Vector3d specific_force(const FrameMotion& motion, const Eigen::Vector3d&
 
 ScrewAxis axis_in_sensor_frame(const ScrewChain& chain, Index joint, const Eigen::Ref<const Eigen::VectorXd>& q) {
   require_size(chain, q.size(), "q");
-  require(joint >= 0 && joint < chain.size(),
-          "joint index " + std::to_string(joint) + " is outside 0.." + std::to_string(chain.size() - 1));
+  if (joint < 0 || joint >= chain.size()) {
+    throw InvalidInput("joint index " + std::to_string(joint) + " is outside 0.." + std::to_string(chain.size() - 1) +
+                       "; joints count from 0 at the base");
+  }
   RigidTransform beyond = chain.home;
   for (Index i = chain.size() - 1; i > joint; --i) {
     beyond = screw_exp(chain.axes[static_cast<std::size_t>(i)], q[i] - chain.reference_configuration[i]) * beyond;
@@ -80,6 +92,7 @@ ScrewAxis axis_in_sensor_frame(const ScrewChain& chain, Index joint, const Eigen
 }
 
 ScrewChain rebase(const ScrewChain& chain, const Eigen::Ref<const Eigen::VectorXd>& reference_configuration) {
+  require_size(chain, reference_configuration.size(), "reference_configuration");
   ScrewChain moved;
   moved.reference_configuration = reference_configuration;
   for (Index i = 0; i < chain.size(); ++i) {

@@ -3,6 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "circlepoint/core/error.hpp"
 
 namespace circlepoint {
 namespace {
@@ -30,31 +33,38 @@ Eigen::Vector4d local_coordinates(const Line& line, const Line& other) {
   const Eigen::Vector3d cross = line.direction.cross(other.direction);
   const double sine = cross.norm();
   const double cosine = line.direction.dot(other.direction);
+  if (std::abs(cosine) < 1e-12) {
+    throw InvalidInput("local coordinates of a line at right angles to the one they are taken at (cosine " +
+                       std::to_string(cosine) + "); take them at a nearer line");
+  }
   const double angle = std::atan2(sine, cosine);
   const Eigen::Vector3d rotation =
       sine > 1e-300 ? Eigen::Vector3d(cross * (angle / sine))
                     : Eigen::Vector3d(cosine > 0.0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(angle * basis.col(1)));
   // The point of `other` in the plane through line.point spanned by the basis, which is where retract starts from.
-  const double along = line.direction.dot(line.point - other.point) / line.direction.dot(other.direction);
+  const double along = line.direction.dot(line.point - other.point) / cosine;
   const Eigen::Vector3d point = other.point + along * other.direction;
   Eigen::Vector4d local;
   local << basis.transpose() * rotation.cross(line.direction), basis.transpose() * (point - line.point);
   return local;
 }
 
-JointAxis transform(const RigidTransform& T_a_b, const JointAxis& axis_b) {
-  JointAxis axis_a;
-  axis_a.screw = transform(T_a_b, axis_b.screw);
-  Eigen::Matrix4d jacobian;
-  constexpr double step = 1e-6;
-  for (int k = 0; k < 4; ++k) {
-    const Eigen::Vector4d nudge = step * Eigen::Vector4d::Unit(k);
-    const Line plus = transform(T_a_b, retract(axis_b.screw.line, nudge));
-    const Line minus = transform(T_a_b, retract(axis_b.screw.line, -nudge));
-    jacobian.col(k) = (local_coordinates(axis_a.screw.line, plus) - local_coordinates(axis_a.screw.line, minus)) / (2.0 * step);
+Eigen::Matrix4d local_coordinates_jacobian(const RigidTransform& T_a_b, const ScrewAxis& axis_b) {
+  const Eigen::Vector3d z_a = T_a_b.linear() * axis_b.line.direction;
+  const Eigen::Matrix2d turn =
+      tangent_basis(z_a).transpose() * T_a_b.linear() * tangent_basis(axis_b.line.direction);
+  Eigen::Matrix4d jacobian = Eigen::Matrix4d::Zero();
+  jacobian.topLeftCorner<2, 2>() = turn;
+  if (axis_b.type == JointType::revolute) {
+    jacobian.bottomLeftCorner<2, 2>() = -z_a.dot(T_a_b.translation()) * turn;
+    jacobian.bottomRightCorner<2, 2>() = turn;
   }
-  axis_a.covariance = jacobian * axis_b.covariance * jacobian.transpose();
-  return axis_a;
+  return jacobian;
+}
+
+JointAxis transform(const RigidTransform& T_a_b, const JointAxis& axis_b) {
+  const Eigen::Matrix4d jacobian = local_coordinates_jacobian(T_a_b, axis_b.screw);
+  return {transform(T_a_b, axis_b.screw), jacobian * axis_b.covariance * jacobian.transpose()};
 }
 
 }  // namespace circlepoint

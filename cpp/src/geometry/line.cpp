@@ -1,17 +1,34 @@
 #include "circlepoint/geometry/line.hpp"
 
 #include <cmath>
-#include <string>
+#include <numbers>
+#include <sstream>
 
 #include "circlepoint/core/error.hpp"
 
 namespace circlepoint {
+namespace {
+
+/// Distance, m, below which two lines count as intersecting: their common normal then takes its sign from the directions.
+constexpr double intersecting_distance = 1e-12;
+
+void require_direction(const Eigen::Vector3d& direction, double norm) {
+  if (!std::isfinite(norm) || norm <= 0.0) {
+    std::ostringstream message;
+    message << "line direction is (" << direction.transpose() << ") with norm " << norm
+            << "; give a finite, non-zero vector";
+    throw InvalidInput(message.str());
+  }
+}
+
+}  // namespace
 
 Line make_line(const Eigen::Vector3d& direction, const Eigen::Vector3d& point_on_line) {
   const double norm = direction.norm();
-  require(std::isfinite(norm) && norm > 0.0,
-          "line direction has norm " + std::to_string(norm) + "; give a finite, non-zero vector");
-  require(point_on_line.allFinite(), "line point is not finite; give three finite coordinates in metres");
+  require_direction(direction, norm);
+  if (!point_on_line.allFinite()) {
+    throw InvalidInput("line point is not finite; give three finite coordinates in metres");
+  }
   Line line;
   line.direction = direction / norm;
   line.point = point_on_line - point_on_line.dot(line.direction) * line.direction;
@@ -20,8 +37,7 @@ Line make_line(const Eigen::Vector3d& direction, const Eigen::Vector3d& point_on
 
 Line line_from_pluecker(const Eigen::Vector3d& direction, const Eigen::Vector3d& moment) {
   const double norm = direction.norm();
-  require(std::isfinite(norm) && norm > 0.0,
-          "line direction has norm " + std::to_string(norm) + "; give a finite, non-zero vector");
+  require_direction(direction, norm);
   return make_line(direction, direction.cross(moment) / (norm * norm));
 }
 
@@ -42,9 +58,10 @@ CommonNormal common_normal(const Line& first, const Line& second, const Eigen::V
     normal.foot_second = second.point + z2.dot(normal.foot_first - second.point) * z2;
     const Eigen::Vector3d gap = normal.foot_second - normal.foot_first;
     normal.distance = gap.norm();
-    normal.direction = normal.distance > 1e-12 ? Eigen::Vector3d(gap / normal.distance) : Eigen::Vector3d(tangent_basis(z1).col(0));
+    const bool coincident = normal.distance <= intersecting_distance;
+    normal.direction = coincident ? Eigen::Vector3d(tangent_basis(z1).col(0)) : Eigen::Vector3d(gap / normal.distance);
     normal.distance = gap.dot(normal.direction);
-    normal.angle = z1.dot(z2) > 0.0 ? 0.0 : std::acos(-1.0);
+    normal.angle = z1.dot(z2) > 0.0 ? 0.0 : std::numbers::pi;
     return normal;
   }
   // Feet p1 + s z1 and p2 + t z2 with the gap orthogonal to both directions.
@@ -57,7 +74,7 @@ CommonNormal common_normal(const Line& first, const Line& second, const Eigen::V
   normal.direction = cross / sine;
   normal.distance = between.dot(normal.direction);
   normal.angle = std::atan2(sine, z1.dot(z2));
-  if (normal.distance < 0.0) {
+  if (normal.distance < -intersecting_distance) {
     normal.direction = -normal.direction;
     normal.distance = -normal.distance;
     normal.angle = -normal.angle;

@@ -1,8 +1,30 @@
 #include "circlepoint/geometry/rigid_transform.hpp"
 
 #include <cmath>
+#include <sstream>
+
+#include "circlepoint/core/error.hpp"
 
 namespace circlepoint {
+
+RigidTransform make_rigid_transform(const Eigen::Matrix4d& matrix, double tolerance) {
+  require(matrix.allFinite(), "rigid transform has an entry that is not finite; give a finite 4x4 matrix");
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  const double last_row = (matrix.row(3) - Eigen::RowVector4d::UnitW()).cwiseAbs().maxCoeff();
+  const double orthogonality = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double determinant = rotation.determinant();
+  if (last_row > tolerance || orthogonality > tolerance || determinant < 0.0) {
+    std::ostringstream message;
+    message << "not a rigid transform: last row is off (0, 0, 0, 1) by " << last_row
+            << ", rotation part off orthogonality by " << orthogonality << " with determinant " << determinant
+            << " (tolerance " << tolerance << "); give [[R, p], [0, 1]] with a proper rotation R";
+    throw InvalidInput(message.str());
+  }
+  RigidTransform transform;
+  transform.matrix() = matrix;
+  transform.makeAffine();
+  return transform;
+}
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;

@@ -32,6 +32,9 @@ struct ScrewChain {
 /// Pose of the sensor frame. Raises InvalidInput when the size of q is not the number of joints.
 RigidTransform forward_kinematics(const ScrewChain& chain, const Eigen::Ref<const Eigen::VectorXd>& q);
 
+/// Poses of many configurations, (N, n) -> (N, 16): one row-major 4x4 matrix a row.
+SamplesX forward_kinematics_rows(const ScrewChain& chain, const Eigen::Ref<const SamplesX>& q);
+
 /// Pose, velocity and acceleration of the sensor frame.
 FrameMotion frame_motion(const ScrewChain& chain, const Eigen::Ref<const Eigen::VectorXd>& q,
                          const Eigen::Ref<const Eigen::VectorXd>& q_dot, const Eigen::Ref<const Eigen::VectorXd>& q_ddot);

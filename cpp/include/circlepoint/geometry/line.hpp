@@ -28,14 +28,15 @@ Line transform(const RigidTransform& T_a_b, const Line& line_b);
 struct CommonNormal {
   Eigen::Vector3d foot_first;   ///< m, its foot on the first line
   Eigen::Vector3d foot_second;  ///< m, its foot on the second line
-  Eigen::Vector3d direction;    ///< unit, from first to second (for intersecting lines: first x second direction)
-  double distance = 0.0;        ///< m, signed along direction
-  double angle = 0.0;           ///< rad, from first to second direction about `direction`
+  Eigen::Vector3d direction;    ///< unit, from first to second (lines nearer than 1e-12 m: first x second direction)
+  double distance = 0.0;        ///< m, along direction
+  double angle = 0.0;           ///< rad, from first to second direction about `direction`, in (-pi, pi]
   bool parallel = false;        ///< the feet are a choice: nearest `foot_hint`
 };
 
-/// Common normal; lines whose directions enclose less than `parallel_tolerance` (rad) count as parallel, and the feet
-/// are then taken at `foot_hint`'s projection (m).
+/// Common normal. Lines whose directions enclose less than `parallel_tolerance` (rad, or as much less than pi) count as
+/// parallel: their angle is then 0 or pi exactly, the feet are taken at the projection of `foot_hint` (m) on the first
+/// line, and for coincident lines `direction` is the first column of tangent_basis(first direction).
 CommonNormal common_normal(const Line& first, const Line& second, const Eigen::Vector3d& foot_hint,
                            double parallel_tolerance = 1e-9);
 

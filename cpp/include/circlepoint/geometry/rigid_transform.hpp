@@ -10,13 +10,17 @@ namespace circlepoint {
 
 using RigidTransform = Eigen::Isometry3d;
 
+/// Rigid transform from a homogeneous 4x4 matrix. Raises InvalidInput when an entry is not finite, the last row is not
+/// (0, 0, 0, 1), or the rotation part is not a proper rotation to within `tolerance` (largest entry of R R^T - I).
+RigidTransform make_rigid_transform(const Eigen::Matrix4d& matrix, double tolerance = 1e-9);
+
 /// Skew-symmetric matrix of v: skew(v) u = v x u.
 Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 
 /// Rotation matrix of a rotation vector (axis times angle, rad).
 Eigen::Matrix3d rotation_exp(const Eigen::Vector3d& rotation_vector);
 
-/// Rotation vector (rad, norm at most pi) of a rotation matrix.
+/// Rotation vector (rad, norm at most pi) of a proper rotation matrix.
 Eigen::Vector3d rotation_log(const Eigen::Matrix3d& rotation);
 
 /// Two unit vectors (columns) that complete the unit vector z to a right-handed frame [u v z].
