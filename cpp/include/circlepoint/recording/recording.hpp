@@ -3,12 +3,16 @@
 //
 // Files and simulation both end here, and nothing downstream can tell which it was. Within a span the samples are
 // equally spaced by 1 / sample_rate; between spans there is a gap in time, and no filter, integral or test crosses it.
+// make_recording() gets raw logs there by the rules of timeline.hpp. Joints and sensor logged by two machines have two
+// clocks, sensor_time = offset + rate * joint_time (clock_alignment.hpp estimates both): the sensor's samples are kept,
+// the joints are interpolated at them, and time is the joint clock's.
 
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
 #include "circlepoint/core/types.hpp"
+#include "circlepoint/recording/timeline.hpp"
 
 namespace circlepoint {
 
@@ -20,9 +24,41 @@ struct Recording {
   std::optional<Eigen::VectorXd> temperature;  ///< (N) degrees Celsius
   double sample_rate = 0.0;                    ///< Hz
   std::vector<IndexRange> spans;               ///< contiguous pieces, in order
+  TimelineReport timeline;                     ///< what was found in the stamps (two clocks: the sensor's)
+  std::optional<TimelineReport> joint_timeline;  ///< the joints' own stamps, where they had a clock of their own
 
   [[nodiscard]] Index samples() const { return time.size(); }
   [[nodiscard]] Index joints() const { return joint_positions.cols(); }
 };
+
+/// sensor_time = offset + rate * joint_time.
+struct ClockModel {
+  double offset = 0.0;  ///< s
+  double rate = 1.0;    ///< sensor seconds a joint second
+};
+
+/// What the sensor wrote, beside the joints or on its own clock.
+struct SensorSamples {
+  Samples3 specific_force;                     ///< (N, 3) m/s^2
+  std::optional<Samples3> angular_velocity;    ///< (N, 3) rad/s
+  std::optional<Eigen::VectorXd> temperature;  ///< (N) degrees Celsius
+};
+
+/// A recording from one log: time (N) s, joint_positions (N, n). Raises InvalidInput for sizes that differ, fewer than
+/// 8 rows, values that are not finite (row, column, value) and time that does not advance (row, both values).
+Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& time, const Eigen::Ref<const SamplesX>& joint_positions,
+                         const SensorSamples& sensor, const TimelineOptions& options = {});
+
+/// A recording from two logs with two clocks. Sensor samples without joint positions around them are left out. Raises
+/// InvalidInput as above, and where the two logs do not overlap under the clock model.
+Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
+                         const Eigen::Ref<const SamplesX>& joint_positions,
+                         const Eigen::Ref<const Eigen::VectorXd>& sensor_time, const SensorSamples& sensor,
+                         const ClockModel& clock, const TimelineOptions& options = {});
+
+/// Several recordings of the same arm as one: each starts a new span. A recording that does not start after the one before
+/// it is moved to one second after its end, and the timeline's notes say so. Sample rates within 1 % are brought to the
+/// first one's; a gyroscope or temperature is kept where all have it. Raises InvalidInput for other rates or joints.
+Recording concatenate(const std::vector<Recording>& recordings);
 
 }  // namespace circlepoint
