@@ -9,7 +9,8 @@ namespace {
 using py::literals::operator""_a;
 using Abscissae = Eigen::Ref<const Eigen::VectorXd>;
 
-constexpr auto butter_doc = R"(Butterworth filter as second-order sections, as ``scipy.signal.butter(..., output='sos')``.
+constexpr auto butter_doc =
+    R"(Butterworth filter as second-order sections, as ``scipy.signal.butter(..., output='sos')``.
 
 Parameters
 ----------
@@ -37,7 +38,8 @@ References
 S. Butterworth, On the theory of filter amplifiers, Experimental Wireless 7 (1930).
 )";
 
-constexpr auto sosfilt_doc = R"(Filter along axis 0 by a cascade of second-order sections, from rest, as ``scipy.signal.sosfilt``.
+constexpr auto sosfilt_doc =
+    R"(Filter along axis 0 by a cascade of second-order sections, from rest, as ``scipy.signal.sosfilt``.
 
 Parameters
 ----------
@@ -63,7 +65,8 @@ References
 A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing, section 6.3 (transposed direct form II).
 )";
 
-constexpr auto sosfilt_zi_doc = R"(States in which a cascade answers a unit step with its final value at once.
+constexpr auto sosfilt_zi_doc =
+    R"(States in which a cascade answers a unit step with its final value at once.
 
 Parameters
 ----------
@@ -84,7 +87,8 @@ References
 ``scipy.signal.sosfilt_zi``.
 )";
 
-constexpr auto sosfiltfilt_doc = R"(Zero-phase filter along axis 0: forwards and backwards, as ``scipy.signal.sosfiltfilt``.
+constexpr auto sosfiltfilt_doc =
+    R"(Zero-phase filter along axis 0: forwards and backwards, as ``scipy.signal.sosfiltfilt``.
 
 Parameters
 ----------
@@ -114,7 +118,8 @@ References
 F. Gustafsson, Determining the initial states in forward-backward filtering, IEEE Trans. Signal Processing 44 (1996).
 )";
 
-constexpr auto trapezoid_doc = R"(Cumulative integral along axis 0 by the trapezoid rule, as ``scipy.integrate.cumulative_trapezoid``.
+constexpr auto trapezoid_doc =
+    R"(Cumulative integral along axis 0 by the trapezoid rule, as ``scipy.integrate.cumulative_trapezoid``.
 
 Parameters
 ----------
@@ -144,7 +149,8 @@ References
 Newton-Cotes formula of degree 1.
 )";
 
-constexpr auto simpson_doc = R"(Cumulative integral along axis 0 by Simpson's rule, as ``scipy.integrate.cumulative_simpson``.
+constexpr auto simpson_doc =
+    R"(Cumulative integral along axis 0 by Simpson's rule, as ``scipy.integrate.cumulative_simpson``.
 
 Parameters
 ----------
@@ -175,7 +181,8 @@ K. V. Cartwright, Simpson's rule cumulative integration with MS Excel and irregu
 Sciences and Mathematics Education 12 (2017), equations 8 and 10.
 )";
 
-constexpr auto gradient_doc = R"(First derivative along axis 0 by central differences, as ``numpy.gradient``.
+constexpr auto gradient_doc =
+    R"(First derivative along axis 0 by central differences, as ``numpy.gradient``.
 
 Parameters
 ----------
@@ -203,7 +210,8 @@ References
 B. Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comp. 51 (1988).
 )";
 
-constexpr auto savgol_doc = R"(Savitzky-Golay smoothing or derivative along axis 0, as ``scipy.signal.savgol_filter(mode='interp')``.
+constexpr auto savgol_doc =
+    R"(Savitzky-Golay smoothing or derivative along axis 0, as ``scipy.signal.savgol_filter(mode='interp')``.
 
 Parameters
 ----------
@@ -237,7 +245,8 @@ A. Savitzky, M. J. E. Golay, Smoothing and differentiation of data by simplified
 Chemistry 36 (1964).
 )";
 
-constexpr auto welch_doc = R"(Power spectral density along axis 0 by Welch's method, as ``scipy.signal.welch``.
+constexpr auto welch_doc =
+    R"(Power spectral density along axis 0 by Welch's method, as ``scipy.signal.welch``.
 
 Parameters
 ----------

@@ -57,7 +57,8 @@ TEST(Sosfiltfilt, ASinusoidInThePassBandKeepsItsPhaseAndHasTheSquaredGain) {
   const int order = 2;
   const SamplesX x = sinusoid(4000, frequency);
   const SamplesX y = sosfiltfilt(butter(order, cutoff, sample_rate), x);
-  const double ratio = std::tan(std::numbers::pi * frequency / sample_rate) / std::tan(std::numbers::pi * cutoff / sample_rate);
+  const double ratio =
+      std::tan(std::numbers::pi * frequency / sample_rate) / std::tan(std::numbers::pi * cutoff / sample_rate);
   const double squared_gain = 1.0 / (1.0 + std::pow(ratio, 2.0 * order));
   EXPECT_LT((y - squared_gain * x).middleRows(1000, 2000).cwiseAbs().maxCoeff(), 1e-9);
 }

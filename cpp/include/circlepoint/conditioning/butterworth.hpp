@@ -1,9 +1,9 @@
 #pragma once
 // Butterworth filters as second-order sections.
 //
-// The analogue prototype of order n has its poles equally spaced on the left half of the unit circle and is flat at both
-// ends of the spectrum; cut-off frequencies are prewarped, f -> 4 tan(pi f / sample_rate), and the bilinear transform
-// makes it digital, so the gain at each cut-off is exactly 1/sqrt(2). Poles nearest the unit circle are paired with
+// The analogue prototype of order n has its poles equally spaced on the left half of the unit circle and is flat at
+// both ends of the spectrum; cut-off frequencies are prewarped, f -> 4 tan(pi f / sample_rate), and the bilinear
+// transform makes it digital, so the gain at each cut-off is exactly 1/sqrt(2). Poles nearest the unit circle are paired with
 // their nearest zeros and put last; the gain is in the first section: the same sections SciPy returns. (When a band is
 // centred exactly on a quarter of the sample rate, pairs of poles are equally near the circle and the order is open.)
 // It fails when a cut-off is not between zero and half the sample rate.

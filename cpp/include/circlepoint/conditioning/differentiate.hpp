@@ -1,8 +1,8 @@
 #pragma once
 // Derivatives of equally spaced samples, down the columns.
 //
-// `gradient`: central differences (y_i+1 - y_i-1) / (2 dx) inside, one-sided differences of first or second order at the
-// ends; noise of standard deviation s becomes s / (sqrt(2) dx).
+// `gradient`: central differences (y_i+1 - y_i-1) / (2 dx) inside, one-sided differences of first or second order at
+// the ends; noise of standard deviation s becomes s / (sqrt(2) dx).
 // `savgol_filter`: in each window of samples the least-squares polynomial, evaluated or differentiated at the window's
 // centre (Savitzky and Golay 1964); within half a window of the ends, the polynomial of the first or last full window.
 // Exact for polynomials up to `polyorder`, no phase. The windows are odd: an even one has no centre sample.

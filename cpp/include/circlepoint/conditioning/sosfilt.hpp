@@ -28,8 +28,8 @@ SamplesX sosfilt(const Eigen::Ref<const SecondOrderSections>& sos, const Eigen::
 /// Raises InvalidInput for a section with a pole at z = 1.
 Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> sosfilt_zi(const Eigen::Ref<const SecondOrderSections>& sos);
 
-/// Filters each column forwards and backwards. `padlen` samples are added at each end; by default three times the number
-/// of taps, 3 (2 sections + 1 - min(sections with b2 = 0, sections with a2 = 0)).
+/// Filters each column forwards and backwards. `padlen` samples are added at each end; by default three times the
+/// number of taps, 3 (2 sections + 1 - min(sections with b2 = 0, sections with a2 = 0)).
 /// Raises InvalidInput for a signal of `padlen` samples or fewer.
 SamplesX sosfiltfilt(const Eigen::Ref<const SecondOrderSections>& sos, const Eigen::Ref<const SamplesX>& x,
                      PadType padtype = PadType::odd, std::optional<Index> padlen = std::nullopt);

@@ -1,10 +1,10 @@
 #pragma once
 // Power spectral density by Welch's method: the average of the periodograms of overlapping windowed segments.
 //
-// One-sided: P(f) = 2 |FFT(w (x - mean))|^2 / (sample_rate sum w^2), without the factor 2 at zero and at half the sample
-// rate; the integral of P over f is the power of the signal (Parseval). Each of the K segments' estimates has a standard
-// deviation of P itself, so the average has about P / sqrt(K), somewhat more for overlapping segments. Samples after the
-// last full segment are not used.
+// One-sided: P(f) = 2 |FFT(w (x - mean))|^2 / (sample_rate sum w^2), without the factor 2 at zero and at half the
+// sample rate; the integral of P over f is the power of the signal (Parseval). Each of the K segments' estimates has a
+// standard deviation of P itself, so the average has about P / sqrt(K), somewhat more for overlapping segments. Samples
+// after the last full segment are not used.
 
 #include <Eigen/Core>
 #include <optional>
