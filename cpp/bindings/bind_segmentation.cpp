@@ -75,7 +75,7 @@ References
 White, K. P., "An effective truncation heuristic for bias reduction in simulation output", Simulation 69(6), 1997.
 )";
 
-constexpr const char* segment_doc = R"(Finds dwells, single-joint motions and the tests they make up in one continuous log.
+constexpr const char* segment_doc = R"(Finds the dwells, single-joint motions and tests in one continuous log.
 
 Parameters
 ----------

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "circlepoint/core/error.hpp"
 #include "joint_tests.hpp"

@@ -182,8 +182,9 @@ Index truncation(const Eigen::MatrixXd& means, const Eigen::VectorXd& within, In
 }
 
 IndexRange settled(const Recording& recording, IndexRange interval, Index batch, Index least) {
-  const Samples3 samples = clipped(recording, interval);
   const Index batches = interval.size() / batch;
+  interval.begin = interval.end - batches * batch;
+  const Samples3 samples = clipped(recording, interval);
   Eigen::MatrixXd means(batches, 3);
   Eigen::VectorXd within(batches);
   for (Index k = 0; k < batches; ++k) {
@@ -198,7 +199,7 @@ IndexRange settled(const Recording& recording, IndexRange interval, Index batch,
                                    least_batches);
   const Index end = batches - dropped;
   begin = truncation(means.topRows(end), within.head(end), batch, least_batches);
-  return {interval.begin + begin * batch, dropped > 0 ? interval.begin + end * batch : interval.end};
+  return {interval.begin + begin * batch, interval.begin + end * batch};
 }
 
 double scatter_of(const Samples3& samples) {
@@ -278,8 +279,8 @@ std::vector<IndexRange> static_intervals(const Recording& recording, const std::
   const Index batch = std::max<Index>(1, window / 10);
   const Index settle = samples_of(options.settle, recording.sample_rate, 0);
   const Index least = samples_of(options.min_dwell, recording.sample_rate, 2);
-  const double limit =
-      std::max(options.quiet_std, options.quiet_ratio * rest_noise(recording, intervals, std::max<Index>(5, window / 2)));
+  const double noise = rest_noise(recording, intervals, std::max<Index>(5, window / 2));
+  const double limit = std::max(options.quiet_std, options.quiet_ratio * noise);
   std::vector<IndexRange> found;
   for (const IndexRange& interval : intervals) {
     if (interval.size() < settle + least) {

@@ -4,9 +4,9 @@
 // A dwell is a stretch in which every joint and the sensor are at rest (conditioning/static_intervals). A single-joint
 // motion is a stretch in which one joint moves and the others stay where they are but for what the control loop lets
 // them yield (milliradians, proportional to the moving joint's effort). It runs from rest to rest; momentary turning
-// points within do not divide it. Where another joint joins later, or stops earlier, the part alone counts if it is long
-// enough: it then begins or ends in motion, and says so. Thresholds come from the data: encoder step, sensor noise at
-// rest, the moving joint's own speed and travel. Nothing crosses a gap.
+// points within do not divide it. Where another joint joins later, or stops earlier, the part alone counts if it is
+// long enough: it then begins or ends in motion, and says so. Thresholds come from the data: encoder step, sensor noise
+// at rest, the moving joint's own speed and travel. Nothing crosses a gap.
 //
 // A test collects what was recorded of one joint at one configuration of the others: dwells that differ in that joint
 // only, and its motions. Dwells may belong to several tests (the home position does to all).
@@ -33,7 +33,7 @@ struct SingleJointMotion {
   double peak_velocity = 0.0;       ///< rad/s or m/s, over half the rest window
   Eigen::VectorXd joint_positions;  ///< (n) mean over the motion, rad or m
   bool from_rest = false;           ///< the joint rests at the beginning; else it was moving already
-  bool to_rest = false;             ///< the joint rests at the end; else it moves on, together with others or unrecorded
+  bool to_rest = false;             ///< the joint rests at the end; else it moves on, with others or unrecorded
 };
 
 /// Everything of one joint that was recorded while the other joints stood at one configuration.
