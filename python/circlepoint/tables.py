@@ -172,8 +172,6 @@ def _read_csv(table: TableFile, names: list[str]) -> pa.Table:
         )
     except pa.ArrowInvalid as error:
         _blame_cell(table, names)
-        if not any(True for _ in _data_rows(table)):
-            raise table.error("has a header line and no samples") from error
         raise table.error(f"cannot be read as CSV ({_first_line(error)})") from error
     except (OSError, pa.ArrowException) as error:
         raise table.error(f"cannot be read ({_first_line(error)})") from error
