@@ -245,7 +245,7 @@ def _text(path: Path) -> Iterator[TextIO]:
         raise InvalidInput(f"{path}: cannot be read ({_first_line(error)})") from error
 
 
-def _binary(path: Path) -> io.BufferedIOBase:
+def _binary(path: Path) -> gzip.GzipFile | io.BufferedReader:
     return gzip.open(path, "rb") if path.suffix.lower() == ".gz" else path.open("rb")
 
 
