@@ -13,12 +13,12 @@ import numpy as np
 
 import circlepoint
 from circlepoint.column_map import STANDARD_GRAVITY
+from circlepoint.findings import Finding
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from circlepoint.arm import Arm, Joint
-    from circlepoint.findings import Finding
     from circlepoint.recording_io import LoadedRecording
 
 MIN_DWELLS = 4
@@ -27,6 +27,8 @@ MIN_DWELL_SPAN = {"revolute": 0.5, "prismatic": 0.1}
 """rad or m: the range those rests should cover."""
 MIN_MOTION_SPAN = {"revolute": 0.2, "prismatic": 0.05}
 """rad or m: the travel a motion should have."""
+GRAVITY_TOLERANCE = 0.05
+"""Relative deviation of what the sensor reads at rest that is worth a word."""
 MIN_GRAVITY_SHARE = 0.1
 """Part of gravity across the axis, below which the rests say little about its direction."""
 
@@ -133,18 +135,31 @@ def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STAND
     forces = np.array([dwell.specific_force for dwell in segmentation.dwells]).reshape(-1, 3)
     noise = np.array([dwell.specific_force_std for dwell in segmentation.dwells])
     magnitudes = np.linalg.norm(forces, axis=1)
+    magnitude = float(magnitudes.mean()) if magnitudes.size else None
     return LogCheck(
         loaded=loaded,
         joints=tuple(
             _check_joint(loaded, segmentation, joint, index, gravity) for index, joint in enumerate(arm.joints)
         ),
         rests=len(segmentation.dwells),
-        rest_magnitude=float(magnitudes.mean()) if magnitudes.size else None,
+        rest_magnitude=magnitude,
         rest_magnitude_std=float(magnitudes.std()) if magnitudes.size else None,
         rest_noise=float(np.median(noise)) if noise.size else None,
         gravity=gravity,
-        findings=loaded.findings,
+        findings=(*loaded.findings, *_gravity_findings(magnitude, gravity)),
     )
+
+
+def _gravity_findings(magnitude: float | None, gravity: float) -> list[Finding]:
+    if magnitude is None or abs(magnitude / gravity - 1) < GRAVITY_TOLERANCE:
+        return []
+    return [
+        Finding(
+            "gravity",
+            f"at rest the sensor reads {magnitude:.4g} m/s^2 where gravity is {gravity:.6g}: its scale factor is "
+            f"{100 * (magnitude / gravity - 1):+.1f} % off, or the local gravity is another (--gravity)",
+        )
+    ]
 
 
 def _check_joint(
@@ -183,7 +198,7 @@ def _judge(
     rests = f"let it rest at {MIN_DWELLS} or more positions over {_travel(joint, rests_over)} or more, 1 s each"
     strokes = f"move it alone to and fro over {_travel(joint, strokes_over)} or more, briskly, for 5 s or more"
     if motions == 0 and dwells < 2:
-        return "missing", f"no test of this joint alone: with the others still, {rests}; then {strokes}"
+        return "missing", f"no test of it alone: with the others still, {rests}; then {strokes}"
     if motions == 0:
         return "missing", f"rests only, and they do not show where the axis is: {strokes}"
     if motion_span < MIN_MOTION_SPAN[joint.type]:

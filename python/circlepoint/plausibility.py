@@ -25,6 +25,7 @@ _LARGEST_TURN = 8 * math.pi  # rad: beyond four turns a position is taken for de
 _LARGEST_TRAVEL = 20.0  # rad
 _LARGEST_REACH = 20.0  # m, of a prismatic joint
 _LIMIT_MARGIN = 0.02  # rad or m
+_GRAVITY_TOLERANCE = 0.25  # of the median magnitude over a whole log, motions included
 _CLIPPED_RUN = 4  # samples in a row at the same extreme
 _CLIPPED_MOTION = 0.05  # m/s^2: another channel moves by this much meanwhile, so the sensor is not just at rest
 _LARGEST_JUMP = 0.3  # rad or m between two samples ...
@@ -124,7 +125,7 @@ def specific_force_findings(
     magnitude = float(np.median(np.linalg.norm(force, axis=1)))
     _require_si_force(magnitude, source, column_map, gravity)
     findings: list[Finding] = []
-    if abs(magnitude / gravity - 1) > 0.05:
+    if abs(magnitude / gravity - 1) > _GRAVITY_TOLERANCE:
         findings.append(
             Finding(
                 "gravity",
@@ -236,8 +237,8 @@ def _require_si_force(magnitude: float, source: str, column_map: ColumnMap, grav
 
 def _clipped(force: FloatArray, channel: int, extreme: float) -> NDArray[np.bool_]:
     """Find samples of one channel in long runs at its extreme while another channel moves."""
-    at = force[:, channel] == extreme
-    clipped = np.zeros_like(at)
+    at = np.asarray(force[:, channel] == extreme, dtype=np.bool_)
+    clipped: NDArray[np.bool_] = np.zeros(at.shape, dtype=np.bool_)
     if np.count_nonzero(at) < _CLIPPED_RUN:
         return clipped
     edges = np.flatnonzero(np.diff(np.concatenate(([0], at.view(np.int8), [0]))))

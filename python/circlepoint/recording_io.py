@@ -7,16 +7,15 @@ recordings become one, in the order given.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 import circlepoint
 from circlepoint._core import InvalidInput
-from circlepoint.arm import Arm
 from circlepoint.column_map import (
     ACCELERATION_UNITS,
     RATE_UNITS,
@@ -40,6 +39,11 @@ from circlepoint.plausibility import (
     unwrap_joints,
 )
 from circlepoint.tables import TableFile, open_table, read_numbers, require_finite
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from circlepoint.arm import Arm
 
 FloatArray = NDArray[np.float64]
 

@@ -172,8 +172,6 @@ def _read_csv(table: TableFile, names: list[str]) -> pa.Table:
         )
     except pa.ArrowInvalid as error:
         _blame_cell(table, names)
-        if not any(True for _ in _data_rows(table)):
-            raise table.error("has a header line and no samples") from error
         raise table.error(f"cannot be read as CSV ({_first_line(error)})") from error
     except (OSError, pa.ArrowException) as error:
         raise table.error(f"cannot be read ({_first_line(error)})") from error
@@ -247,7 +245,7 @@ def _text(path: Path) -> Iterator[TextIO]:
         raise InvalidInput(f"{path}: cannot be read ({_first_line(error)})") from error
 
 
-def _binary(path: Path) -> io.BufferedIOBase:
+def _binary(path: Path) -> gzip.GzipFile | io.BufferedReader:
     return gzip.open(path, "rb") if path.suffix.lower() == ".gz" else path.open("rb")
 
 

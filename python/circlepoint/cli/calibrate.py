@@ -15,6 +15,12 @@ from circlepoint.cli.options import Subparsers, add_command, add_recording, numb
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Mapping
+    from typing import Any
+
+    import circlepoint
+    from circlepoint.calibrate import Calibration
+    from circlepoint.recording_io import LoadedRecording
 
 METHODS = ("joint", "position", "velocity")
 
@@ -67,47 +73,74 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from circlepoint.calibrate import calibrate  # noqa: PLC0415  (keeps `circlepoint --help` quick)
-    from circlepoint.document import with_reading, write_document  # noqa: PLC0415
-    from circlepoint.recording_io import read_recording  # noqa: PLC0415
-    from circlepoint.report import format_dh_table, format_joint_table, write_report  # noqa: PLC0415
-    from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
+    from circlepoint.recording_io import read_recording  # noqa: PLC0415  (keeps `circlepoint --help` quick)
 
     require_writable_folder(options.out)
     arm = load_arm(options.arm)
     _require_reference(options.reference_configuration, arm)
-    sensor = load_sensor(options.sensor) if options.sensor is not None else None
+    sensor = _sensor(options.sensor)
     with progress(3, quiet=options.json) as begin:
         begin("reading")
         loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
         begin("estimating")
-        calibration = calibrate(
-            loaded.recording,
-            arm,
-            method=options.method,
-            sensor=sensor,
-            gravity=options.gravity,
-            reference_configuration=options.reference_configuration,
-        )
+        calibration = _estimate(options, loaded, arm, sensor)
         begin("writing")
-        calibration = replace(calibration, document=with_reading(calibration.document, loaded))
-        document = calibration.document
-        options.out.mkdir(parents=True, exist_ok=True)
-        write_report(options.out, calibration)
-        write_document(options.out / "calibration.json", document)
+        _write(options.out, calibration)
+    document = calibration.document
     if options.json:
         print(json.dumps(document, indent=1, allow_nan=False))
     else:
-        print(f"{format_joint_table(document)}\n{format_dh_table(document)}")
-        for finding in document["findings"]:
-            print(f"note: {finding['message']}")
-        print(f"written: {options.out / 'calibration.json'}, {options.out / 'report.html'}")
-    if document["complete"]:
-        return 0
+        _print_tables(document, options.out)
     missing = [joint for joint in document["joints"] if joint["direction_sensor"] is None]
     for joint in missing:
         print(f"circlepoint: {joint['name']}: not estimated: {joint['reason']}", file=sys.stderr)
-    return 1
+    return 1 if missing else 0
+
+
+def _sensor(name: str | None) -> circlepoint.AccelerometerSpecification | None:
+    if name is None:
+        return None
+    from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
+
+    return load_sensor(name)
+
+
+def _estimate(
+    options: argparse.Namespace,
+    loaded: LoadedRecording,
+    arm: Arm,
+    sensor: circlepoint.AccelerometerSpecification | None,
+) -> Calibration:
+    from circlepoint.calibrate import calibrate  # noqa: PLC0415
+    from circlepoint.document import with_reading  # noqa: PLC0415
+
+    calibration = calibrate(
+        loaded.recording,
+        arm,
+        method=options.method,
+        sensor=sensor,
+        gravity=options.gravity,
+        reference_configuration=options.reference_configuration,
+    )
+    return replace(calibration, document=with_reading(calibration.document, loaded))
+
+
+def _write(folder: Path, calibration: Calibration) -> None:
+    from circlepoint.document import write_document  # noqa: PLC0415
+    from circlepoint.report import write_report  # noqa: PLC0415
+
+    folder.mkdir(parents=True, exist_ok=True)
+    write_report(folder, calibration)
+    write_document(folder / "calibration.json", calibration.document)
+
+
+def _print_tables(document: Mapping[str, Any], folder: Path) -> None:
+    from circlepoint.report import format_dh_table, format_joint_table  # noqa: PLC0415
+
+    print(f"{format_joint_table(document)}\n{format_dh_table(document)}")
+    for finding in document["findings"]:
+        print(f"note: {finding['message']}")
+    print(f"written: {folder / 'calibration.json'}, {folder / 'report.html'}")
 
 
 def _require_reference(reference: tuple[float, ...] | None, arm: Arm) -> None:

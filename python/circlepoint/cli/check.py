@@ -93,7 +93,7 @@ def format_check(result: LogCheck) -> str:
     )
     lines.append(_rest_line(result))
     lines += ["", *_joint_table(result.joints), ""]
-    lines += _wrapped([f"{joint.joint.name}: {joint.advice}" for joint in result.joints if joint.advice], "to record")
+    lines += _wrapped(_advice(result.joints), "to record")
     lines += _wrapped([finding.message for finding in result.findings], "findings")
     missing = [joint.joint.name for joint in result.joints if joint.status == "missing"]
     lines.append(
@@ -158,6 +158,15 @@ def _joint_row(index: int, check: JointCheck) -> list[str]:
         step,
         check.status,
     ]
+
+
+def _advice(joints: tuple[JointCheck, ...]) -> list[str]:
+    """Return what to record, joints with the same advice together."""
+    named: dict[str, list[str]] = {}
+    for joint in joints:
+        if joint.advice:
+            named.setdefault(joint.advice, []).append(joint.joint.name)
+    return [f"{', '.join(names)}: {advice}" for advice, names in named.items()]
 
 
 def _wrapped(items: list[str], title: str) -> list[str]:
