@@ -6,7 +6,7 @@ namespace {
 
 // InvalidInput is a ValueError as well, so that callers who expect Python's own kind catch it.
 py::object new_exception(py::module_& m, const char* name, const py::tuple& bases, const char* doc) {
-  const std::string qualified = std::string("circlepoint.") + name;
+  const std::string qualified = std::string("circlepoint._core.") + name;
   auto type = py::reinterpret_steal<py::object>(
       PyErr_NewExceptionWithDoc(qualified.c_str(), doc, bases.ptr(), nullptr));
   if (!type) {

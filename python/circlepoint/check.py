@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 import circlepoint
-from circlepoint.column_map import STANDARD_GRAVITY
+from circlepoint._core import STANDARD_GRAVITY
 from circlepoint.findings import Finding
 
 if TYPE_CHECKING:

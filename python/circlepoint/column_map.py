@@ -31,12 +31,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from circlepoint._core import STANDARD_GRAVITY
 from circlepoint.arm import Arm
 from circlepoint.tables import TableFile
 from circlepoint.yaml_io import YamlFile, describe, load_yaml
-
-STANDARD_GRAVITY = 9.80665
-"""m/s^2, the unit g."""
 
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 ANGLE_UNITS = {"rad": 1.0, "deg": math.pi / 180, "mrad": 1e-3, "rev": 2 * math.pi}

@@ -29,6 +29,8 @@ SCHEMA_NAME = "circlepoint/calibration/1"
 
 Document = dict[str, Any]
 
+DH_PARAMETERS = ("a", "alpha", "d", "theta")
+
 
 def load_schema() -> Document:
     """Return the JSON Schema (draft 2020-12) of ``calibration.json``."""
@@ -49,14 +51,23 @@ def estimate_entry(estimate: ArrayLike | None, std: ArrayLike | None) -> Documen
     return {"estimate": plain(estimate), "std": plain(std)}
 
 
-def dh_entry(value: float, std: float | None) -> Document:
-    """Return a Denavit-Hartenberg parameter that was estimated; m or rad."""
-    return {"value": float(value), "std": None if std is None else float(std)}
+def dh_row_entry(values: Sequence[float], stds: Sequence[float | None], free: Sequence[bool]) -> Document:
+    """Return a row of Denavit-Hartenberg parameters.
 
-
-def free_dh_entry(value: float = 0.0) -> Document:
-    """Return a Denavit-Hartenberg parameter that is a choice and only places the base or the tool."""
-    return {"value": float(value), "std": None, "free": True}
+    Parameters
+    ----------
+    values : sequence of float
+        a, alpha, d, theta; m and rad.
+    stds : sequence of (float or None)
+        Their standard deviations; None where there is none.
+    free : sequence of bool
+        Whether each is a choice that only places the base or the tool.
+    """
+    spread: list[float | str | None] = ["free" if choice else std for std, choice in zip(stds, free, strict=True)]
+    return {
+        **dict(zip(DH_PARAMETERS, map(float, values), strict=True)),
+        "std": dict(zip(DH_PARAMETERS, spread, strict=True)),
+    }
 
 
 def joint_entry(

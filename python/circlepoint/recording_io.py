@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import circlepoint
-from circlepoint._core import InvalidInput
+from circlepoint._core import STANDARD_GRAVITY, InvalidInput
 from circlepoint.column_map import (
     ACCELERATION_UNITS,
     RATE_UNITS,
-    STANDARD_GRAVITY,
     TEMPERATURE_UNITS,
     TIME_UNITS,
     ColumnMap,

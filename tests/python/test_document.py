@@ -8,10 +8,9 @@ import pytest
 
 from circlepoint.document import (
     SCHEMA_NAME,
-    dh_entry,
+    dh_row_entry,
     estimate_entry,
     finding_entries,
-    free_dh_entry,
     generator_entry,
     joint_entry,
     load_schema,
@@ -34,10 +33,10 @@ def a_document(*, complete=True):
     joints = [joint_entry("pan", "revolute", **line), joint_entry("slide", "prismatic", **line)]
     if not complete:
         joints[1] = missing_joint_entry("slide", "prismatic", "no motion of this joint; move it alone")
-    row = {"a": dh_entry(0.1, 1e-4), "alpha": dh_entry(0.0, 1e-5), "d": dh_entry(0.0, 1e-4), "theta": dh_entry(1, None)}
+    stds = [1e-4, 1e-5, 1e-4, None]
     dh = {
         "convention": "standard",
-        "rows": [{**row, "d": free_dh_entry(), "theta": free_dh_entry()}, row],
+        "rows": [dh_row_entry([0.1, 0.0, 0.0, 1.0], stds, [False, False, k == 0, k == 0]) for k in range(2)],
         "base": np.eye(4),
         "tool": np.eye(4),
         "near_parallel": [["pan", "slide"]],

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
 
-from circlepoint.column_map import STANDARD_GRAVITY
+from circlepoint._core import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -11,7 +11,7 @@ from circlepoint._core import InvalidInput
 from circlepoint.arm import Arm, load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
 from circlepoint.cli.options import Subparsers, add_command, positive, progress
-from circlepoint.column_map import STANDARD_GRAVITY
+from circlepoint._core import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import circlepoint

@@ -145,16 +145,6 @@ def number(value: Any) -> float | None:
     return None
 
 
-def number_std(value: Any) -> float | None:
-    """Return the standard deviation of a `{"value": x, "std": s}` entry, or None."""
-    return number(value.get("std")) if isinstance(value, Mapping) else None
-
-
-def is_free(value: Any) -> bool:
-    """Tell whether a Denavit-Hartenberg parameter is a free choice rather than an estimate."""
-    return value == "free" or (isinstance(value, Mapping) and (bool(value.get("free")) or value.get("std") == "free"))
-
-
 def vector(value: Any) -> list[float] | None:
     """Return a document's list of finite numbers, or None."""
     if isinstance(value, Mapping):

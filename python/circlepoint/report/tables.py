@@ -73,7 +73,7 @@ def dh_table(document: Document) -> str:
     columns = [Column("joint", names, "name")]
     symbols = {"a": "a", "alpha": "\N{GREEK SMALL LETTER ALPHA}", "d": "d", "theta": "θ"}
     for key, unit, scale in dh_columns():
-        cells = [dh_cell(row.get(key), scale) for row in rows]
+        cells = [dh_cell(row, key, scale) for row in rows]
         group = f"{symbols[key]}, {unit}"
         columns.append(Column("value", numbers([value for value, _ in cells]), group=group))
         columns.append(Column("std", [_uncertainty(std) for _, std in cells], "std", group=group))

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from circlepoint.report.comparison import line_errors
-from circlepoint.report.inputs import Document, is_estimated, is_free, number, number_std, vector
+from circlepoint.report.inputs import Document, is_estimated, number, vector
 from circlepoint.report.rounding import (
     ABSENT,
     FREE,
@@ -81,7 +81,7 @@ def format_dh_table(document: Document) -> str:
     names = [joint["name"] for joint in document["joints"]]
     columns = [["joint", *(names[i] if i < len(names) else str(i + 1) for i in range(len(rows)))]]
     for key, unit, scale in dh_columns():
-        cells = [dh_cell(row.get(key), scale) for row in rows]
+        cells = [dh_cell(row, key, scale) for row in rows]
         values = align_decimals([value for value, _ in cells])
         stds = align_decimals([std for _, std in cells])
         value_width = max(len(value) for value in values)
@@ -105,12 +105,12 @@ def dh_columns() -> list[tuple[str, str, float]]:
     ]
 
 
-def dh_cell(entry: Any, scale: float) -> tuple[str, str]:
-    """Return value and uncertainty of one parameter; the uncertainty of a free one is the word."""
-    if is_free(entry):
-        value = number(entry)
+def dh_cell(row: Document, key: str, scale: float) -> tuple[str, str]:
+    """Return value and uncertainty of one parameter of a row; the uncertainty of a free one is the word."""
+    value, std = number(row.get(key)), row.get("std", {}).get(key)
+    if std == FREE:
         return format_value(0.0 if value is None else value * scale, 0 if not value else 3), FREE
-    value, std = number(entry), number_std(entry)
+    std = number(std)
     return format_uncertain(
         None if value is None else value * scale,
         None if std is None else std * scale,

@@ -42,10 +42,6 @@ def screw_lines():
     return lines, T_sensor_base[:3, :3] @ np.array([0.0, 0.0, 9.80665])
 
 
-def entry(value, std):
-    return {"value": float(value), "std": float(std)}
-
-
 def make_document(names):
     lines, gravity = screw_lines()
     joints = [
@@ -63,15 +59,20 @@ def make_document(names):
     ]
     rows = [
         {
-            "a": entry(a, 5.4e-5 * (1 + i)),
-            "alpha": entry(alpha, 2.1e-5),
-            "d": entry(d, 3.7e-5 * (1 + i)),
-            "theta": entry(theta, 4.4e-5 / (1 + i)),
+            "a": a,
+            "alpha": alpha,
+            "d": d,
+            "theta": theta,
+            "std": {
+                "a": 5.4e-5 * (1 + i),
+                "alpha": 2.1e-5,
+                "d": "free" if i == 0 else 3.7e-5 * (1 + i),
+                "theta": "free" if i == 0 else 4.4e-5 / (1 + i),
+            },
         }
         for i, (a, alpha, d, theta) in enumerate(DH_ROWS)
     ]
-    rows[0]["d"] = {"value": 0.0, "std": None, "free": True}
-    rows[0]["theta"] = {"value": 0.0, "std": None, "free": True}
+    rows[0]["d"] = rows[0]["theta"] = 0.0
     return {
         "schema": "circlepoint/calibration/1",
         "complete": True,

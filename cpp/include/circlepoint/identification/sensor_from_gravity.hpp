@@ -1,0 +1,32 @@
+#pragma once
+// The sensor's static errors from the magnitude of gravity: no orientation needs to be known.
+//
+// At rest |f| = g whatever the pose, so each dwell gives, to first order with u the unit reading,
+//   |y| - g = u . bias + g sum_k scale_k u_k^2 + g (m_yx u_x u_y + m_zx u_x u_z + m_zy u_y u_z) + noise.
+// Linear in nine unknowns with a Gaussian prior from the sensor's specification. With `adapt_prior` the prior's common
+// factor, and always the dwells' own noise, are set by the evidence (empirical Bayes): a quiet reading of |f| = g at many
+// attitudes means a good sensor, and its intervals shrink; few attitudes leave the prior in place. What the attitudes
+// do not reach stays as wide as the prior says.
+
+#include <Eigen/Core>
+
+#include "circlepoint/core/types.hpp"
+#include "circlepoint/sensor/accelerometer.hpp"
+
+namespace circlepoint {
+
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+struct SensorFromGravity {
+  AccelerometerModel sensor;                ///< bias, scale and misalignment estimates
+  Matrix9 covariance = Matrix9::Zero();     ///< of (bias, scale, misalignment)
+  double prior_factor = 1.0;                ///< of the specification's standard deviations
+  double noise_std = 0.0;                   ///< m/s^2, of a dwell's magnitude
+  double residual_rms = 0.0;                ///< m/s^2
+};
+
+/// dwell_specific_force: (K, 3) m/s^2, means of dwells. gravity: m/s^2. Zero dwells return the prior.
+SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwell_specific_force,
+                                          const AccelerometerSpecification& specification, double gravity, bool adapt_prior);
+
+}  // namespace circlepoint

@@ -1,0 +1,163 @@
+#include "circlepoint/identification/axis_direction.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "circlepoint/core/error.hpp"
+#include "circlepoint/geometry/rigid_transform.hpp"
+
+namespace circlepoint {
+namespace {
+
+struct Scatter {
+  Eigen::Vector3d mean;
+  Eigen::Vector3d eigenvalues;  // ascending, of the weighted mean square
+  Eigen::Matrix3d eigenvectors;
+};
+
+Scatter scatter_of(const Eigen::Ref<const Samples3>& f, const Eigen::VectorXd& weights) {
+  const double total = weights.sum();
+  Scatter scatter;
+  scatter.mean = (f.transpose() * weights) / total;
+  const Samples3 centred = f.rowwise() - scatter.mean.transpose();
+  const Eigen::Matrix3d moment = centred.transpose() * weights.asDiagonal() * centred / total;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment);
+  scatter.eigenvalues = solver.eigenvalues().cwiseMax(0.0);
+  scatter.eigenvectors = solver.eigenvectors();
+  return scatter;
+}
+
+void validate(const Eigen::Ref<const Samples3>& f) {
+  require(f.rows() >= 3, "an axis direction needs at least 3 static poses, got " + std::to_string(f.rows()) +
+                             "; hold the joint still at more angles");
+  for (Index i = 0; i < f.rows(); ++i) {
+    require(f.row(i).allFinite(), "specific_force row " + std::to_string(i) + " is not finite; remove or repair that pose");
+  }
+}
+
+// The samples must spread in two directions clearly more than along the axis.
+void require_plane(const Scatter& scatter, Index poses) {
+  const Eigen::Vector3d spread = scatter.eigenvalues.cwiseSqrt();
+  if (!(spread[1] > 4.0 * spread[0]) || spread[1] < 1e-9) {
+    throw NotIdentifiable("the " + std::to_string(poses) + " static poses do not spread over a plane (rms " +
+                          std::to_string(spread[0]) + ", " + std::to_string(spread[1]) + ", " + std::to_string(spread[2]) +
+                          " m/s^2 along the scatter's axes): the joint axis is nearly parallel to gravity or the joint turned "
+                          "too little; tilt the arm by another joint or turn the joint further");
+  }
+}
+
+// Information of the direction in its tangent plane, per unit noise variance.
+AxisDirectionFit describe(const Eigen::Ref<const Samples3>& f, const Scatter& scatter, const Eigen::VectorXd& weights) {
+  AxisDirectionFit fit;
+  fit.direction = scatter.eigenvectors.col(0);
+  fit.offset = fit.direction.dot(scatter.mean);
+  fit.spread = scatter.eigenvalues.cwiseSqrt();
+  fit.weights = weights;
+  const double total = weights.sum();
+  const double dof = std::max(1.0, total - 3.0);
+  fit.residual_std = std::sqrt(scatter.eigenvalues[0] * total / dof);
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(fit.direction);
+  const Samples3 centred = f.rowwise() - scatter.mean.transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> in_plane = centred * basis;
+  const Eigen::Matrix2d information = in_plane.transpose() * weights.asDiagonal() * in_plane;
+  fit.covariance = fit.residual_std * fit.residual_std * information.inverse();
+  return fit;
+}
+
+// z . f - c of every pose in one residual block: at this size one block costs a third of one a pose.
+struct PlaneResidual {
+  const Eigen::Ref<const Samples3>& f;
+  const Eigen::VectorXd& root_weights;
+
+  template <typename T>
+  bool operator()(const T* z, const T* c, T* residuals) const {
+    for (Index i = 0; i < f.rows(); ++i) {
+      residuals[i] = root_weights[i] * (z[0] * f(i, 0) + z[1] * f(i, 1) + z[2] * f(i, 2) - c[0]);
+    }
+    return true;
+  }
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+AxisDirectionFit fit_axis_direction(const Eigen::Ref<const Samples3>& specific_force) {
+  validate(specific_force);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(specific_force.rows());
+  const Scatter scatter = scatter_of(specific_force, weights);
+  require_plane(scatter, specific_force.rows());
+  return describe(specific_force, scatter, weights);
+}
+
+AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& specific_force, const RobustOptions& options) {
+  validate(specific_force);
+  const Index poses = specific_force.rows();
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(poses);
+  AxisDirectionFit fit = describe(specific_force, scatter_of(specific_force, weights), weights);
+  Eigen::Vector3d z = fit.direction;
+  double c = fit.offset;
+  bool converged = false;
+  int iteration = 0;
+  for (; iteration < options.max_iterations && !converged; ++iteration) {
+    std::vector<double> magnitudes(static_cast<std::size_t>(poses));
+    for (Index i = 0; i < poses; ++i) {
+      magnitudes[static_cast<std::size_t>(i)] = std::abs(specific_force.row(i).dot(z) - c);
+    }
+    // 1.4826: the median absolute deviation of a normal variable in standard deviations.
+    const double scale = std::max(options.loss_scale * 1.4826 * median(magnitudes), 1e-12);
+    for (Index i = 0; i < poses; ++i) {
+      const double ratio = magnitudes[static_cast<std::size_t>(i)] / scale;
+      weights[i] = 1.0 / (1.0 + ratio * ratio);
+    }
+    const Eigen::VectorXd root_weights = weights.cwiseSqrt();
+    const Eigen::Vector3d previous = z;
+    ceres::Problem problem;
+    auto* cost = new ceres::AutoDiffCostFunction<PlaneResidual, ceres::DYNAMIC, 3, 1>(
+        new PlaneResidual{specific_force, root_weights}, static_cast<int>(poses));
+    problem.AddResidualBlock(cost, nullptr, z.data(), &c);
+    problem.SetManifold(z.data(), new ceres::SphereManifold<3>);
+    ceres::Solver::Options solver_options;
+    solver_options.linear_solver_type = ceres::DENSE_QR;
+    solver_options.logging_type = ceres::SILENT;
+    solver_options.function_tolerance = 1e-15;
+    solver_options.parameter_tolerance = 1e-14;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options, &problem, &summary);
+    converged = (z - previous).norm() < 1e-10;
+  }
+  const Scatter scatter = scatter_of(specific_force, weights);
+  require_plane(scatter, poses);
+  fit = describe(specific_force, scatter, weights);
+  fit.direction = z.dot(fit.direction) >= 0.0 ? z : Eigen::Vector3d(-z);
+  fit.offset = z.dot(fit.direction) >= 0.0 ? c : -c;
+  fit.iterations = iteration;
+  fit.converged = converged;
+  return fit;
+}
+
+Eigen::Vector3d orient_axis(const Eigen::Vector3d& direction, const Eigen::Ref<const Eigen::VectorXd>& angle,
+                            const Eigen::Ref<const Samples3>& specific_force) {
+  require(angle.size() == specific_force.rows(), "angle has " + std::to_string(angle.size()) + " entries for " +
+                                                     std::to_string(specific_force.rows()) + " poses; give one per pose");
+  // A vector fixed in the base turns by -angle about z in the sensor frame: f(angle) = A + P cos(angle) - z x P sin(angle).
+  // Least squares of f on [1, cos, sin]; the triple product of z, P and the sine coefficient is negative for the right sign.
+  Eigen::Matrix<double, Eigen::Dynamic, 3> regressors(angle.size(), 3);
+  regressors << Eigen::VectorXd::Ones(angle.size()), angle.array().cos().matrix(), angle.array().sin().matrix();
+  const Eigen::Matrix3d coefficients = regressors.colPivHouseholderQr().solve(Eigen::MatrixXd(specific_force));
+  const Eigen::Vector3d cosine = coefficients.row(1);
+  const Eigen::Vector3d sine = coefficients.row(2);
+  return direction.dot(cosine.cross(sine)) <= 0.0 ? direction : Eigen::Vector3d(-direction);
+}
+
+}  // namespace circlepoint

@@ -1,0 +1,404 @@
+#include "circlepoint/identification/joint_calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "circlepoint/core/error.hpp"
+#include "partial_chain.hpp"
+#include "reference_configuration.hpp"
+#include "test_fit.hpp"
+#include "test_samples.hpp"
+
+namespace circlepoint {
+namespace {
+
+constexpr double degree = 0.017453292519943295;
+
+// Everything one joint contributes; `reason` is empty while it can be estimated.
+struct JointWork {
+  std::optional<TestSamples> samples;
+  std::optional<FittedTest> fitted;
+  std::string reason;
+};
+
+std::string joint_name(Index joint) { return "joint " + std::to_string(joint + 1); }
+
+void validate(const Recording& recording, const JointCalibrationOptions& options) {
+  const Index joints = recording.joints();
+  require(options.joint_types.empty() || static_cast<Index>(options.joint_types.size()) == joints,
+          "joint_types has " + std::to_string(options.joint_types.size()) + " entries for " + std::to_string(joints) +
+              " joints; give one per joint, base to tip");
+  require(options.encoder_resolution.size() == 0 || options.encoder_resolution.size() == joints,
+          "encoder_resolution has " + std::to_string(options.encoder_resolution.size()) + " entries for " +
+              std::to_string(joints) + " joints; give one per joint, or none");
+  require(!options.reference_configuration || options.reference_configuration->size() == joints,
+          "reference_configuration has " +
+              std::to_string(options.reference_configuration ? options.reference_configuration->size() : 0) + " entries for " +
+              std::to_string(joints) + " joints; give one per joint, base to tip");
+  require(options.gravity > 0.0, "gravity is " + std::to_string(options.gravity) + " m/s^2; give the local magnitude, about 9.8");
+  require(options.cutoff >= 0.0 && options.cutoff < 0.5 * recording.sample_rate,
+          "cutoff is " + std::to_string(options.cutoff) + " Hz; give 0 (chosen per test) or less than half the sample rate of " +
+              std::to_string(recording.sample_rate) + " Hz");
+}
+
+Samples3 dwell_means(const Segmentation& segmentation) {
+  Samples3 means(static_cast<Index>(segmentation.dwells.size()), 3);
+  for (Index i = 0; i < means.rows(); ++i) {
+    means.row(i) = segmentation.dwells[static_cast<std::size_t>(i)].specific_force;
+  }
+  return means;
+}
+
+// Of a joint's tests the one with the widest motion; the others differ in the configuration of the other joints.
+std::optional<Index> best_test(const Segmentation& segmentation, Index joint) {
+  std::optional<Index> best;
+  for (Index i = 0; i < static_cast<Index>(segmentation.tests.size()); ++i) {
+    const JointTest& test = segmentation.tests[static_cast<std::size_t>(i)];
+    if (test.joint != joint || test.motions.empty()) {
+      continue;
+    }
+    if (!best || test.motion_span > segmentation.tests[static_cast<std::size_t>(*best)].motion_span) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::vector<JointWork> gather_all(const Recording& recording, const Segmentation& segmentation, const SensorFromGravity& sensor,
+                                  const JointCalibrationOptions& options) {
+  const Eigen::VectorXd resolution = encoder_resolution(recording, options);
+  std::vector<JointWork> work(static_cast<std::size_t>(recording.joints()));
+  for (Index joint = 0; joint < recording.joints(); ++joint) {
+    JointWork& mine = work[static_cast<std::size_t>(joint)];
+    if (!options.joint_types.empty() && options.joint_types[static_cast<std::size_t>(joint)] == JointType::prismatic) {
+      mine.reason = "prismatic joints are not estimated by the single-joint methods";
+      continue;
+    }
+    const std::optional<Index> test = best_test(segmentation, joint);
+    if (test) {
+      mine.samples = gather(recording, segmentation, *test, sensor.sensor, resolution, options);
+      continue;
+    }
+    const auto column = recording.joint_positions.col(joint);
+    const double travel = column.maxCoeff() - column.minCoeff();
+    mine.reason = travel < 0.01 ? "it never moves in this recording; turn it alone, still poses and a motion such as 0.5 Hz over 150 degrees for 6 s"
+                                : "it never moves alone in this recording (it travels " + std::to_string(travel / degree) +
+                                      " degrees, always together with others or too short); turn it alone, still poses and a "
+                                      "motion such as 0.5 Hz over 150 degrees for 6 s";
+  }
+  return work;
+}
+
+JointModelPrior prior_for(const SensorFromGravity& sensor, const JointCalibrationOptions& options, double static_std) {
+  JointModelPrior prior;
+  const double bias = std::sqrt(sensor.covariance.diagonal().head<3>().mean());
+  const double scale = std::sqrt(sensor.covariance.diagonal().segment<3>(3).mean());
+  const double floor = std::max(static_std, 1e-4);
+  prior.bias_std = std::hypot(bias, floor);
+  prior.gravity = options.gravity;
+  prior.gravity_std = std::hypot(prior.bias_std, scale * options.gravity);
+  prior.percussion_distance = options.sensor.percussion_distance;
+  prior.percussion_distance_std = options.sensor.percussion_distance_std;
+  return prior;
+}
+
+// Fits every joint that has a test; a test that does not determine its joint leaves the reason.
+void fit_all(std::vector<JointWork>& work, const PartialChain* chain, const SensorFromGravity& sensor,
+             const JointCalibrationOptions& options, double sample_rate) {
+  for (JointWork& mine : work) {
+    if (!mine.samples) {
+      continue;
+    }
+    try {
+      if (options.method == CalibrationMethod::joint) {
+        const TestNoise noise = mine.fitted ? mine.fitted->noise : TestNoise{};
+        const JointModelPrior prior = prior_for(sensor, options, noise.static_std);
+        mine.fitted = fit_by_regression(*mine.samples, chain, prior, noise, options.filter_order);
+      } else {
+        mine.fitted = fit_by_paper(*mine.samples, options.method, sample_rate, options);
+      }
+    } catch (const NotIdentifiable& error) {
+      mine.reason = error.what();
+      mine.samples.reset();
+      mine.fitted.reset();
+    }
+  }
+}
+
+// Lines at their tests' configurations -> chain at the reference configuration, tip to base.
+PartialChain carry_all(const std::vector<std::optional<Line>>& lines, const std::vector<Eigen::VectorXd>& configurations,
+                       const Eigen::VectorXd& reference) {
+  PartialChain chain;
+  chain.reference_configuration = reference;
+  chain.axes.resize(lines.size());
+  for (std::size_t i = lines.size(); i-- > 0;) {
+    if (lines[i]) {
+      const RigidTransform carry = carry_to_reference(chain, static_cast<Index>(i), configurations[i]);
+      chain.axes[i] = transform(carry, ScrewAxis{JointType::revolute, *lines[i]});
+    }
+  }
+  return chain;
+}
+
+struct Placed {
+  std::vector<std::optional<Line>> lines;  // at the tests' configurations; absent where missing or not to be carried
+  std::vector<Eigen::VectorXd> configurations;
+  PartialChain chain;
+};
+
+Placed place(std::vector<JointWork>& work, const Eigen::VectorXd& reference, double tolerance) {
+  Placed placed;
+  placed.lines.resize(work.size());
+  placed.configurations.resize(work.size());
+  for (std::size_t i = work.size(); i-- > 0;) {
+    if (!work[i].fitted) {
+      continue;
+    }
+    placed.configurations[i] = work[i].fitted->fit.configuration;
+    const std::optional<Index> obstacle = obstacle_between(placed.lines, placed.configurations[i], reference,
+                                                           static_cast<Index>(i), tolerance);
+    if (obstacle) {
+      work[i].reason = "its own test stands, but its line cannot be carried to the reference configuration: " +
+                       joint_name(*obstacle) + " beyond it stood elsewhere then and is not known; record " +
+                       joint_name(*obstacle) + " moving alone";
+    } else {
+      work[i].reason.clear();
+      placed.lines[i] = work[i].fitted->fit.model.line();
+    }
+  }
+  placed.chain = carry_all(placed.lines, placed.configurations, reference);
+  return placed;
+}
+
+// Mean of the dwells' readings in base coordinates, over dwells whose unknown joints stand at the reference.
+Eigen::Vector3d mean_up_gravity(const PartialChain& chain, const Segmentation& segmentation, const AccelerometerModel& sensor,
+                                double tolerance) {
+  std::vector<Index> columns;
+  const ScrewChain known = chain.known(columns);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  for (const StaticDwell& dwell : segmentation.dwells) {
+    bool usable = true;
+    for (Index j = 0; j < chain.size(); ++j) {
+      usable = usable && (chain.knows(j) || std::abs(dwell.joint_positions[j] - chain.reference_configuration[j]) < tolerance);
+    }
+    if (usable) {
+      const RigidTransform pose = forward_kinematics(known, dwell.joint_positions(columns));
+      sum += pose.linear() * sensor.correct(dwell.specific_force, Eigen::Vector3d::Zero());
+      weight += 1.0;
+    }
+  }
+  return weight > 0.0 ? Eigen::Vector3d(sum / weight) : Eigen::Vector3d::Zero();
+}
+
+void combine_percussion(const std::vector<JointWork>& work, const JointCalibrationOptions& options, double& distance, double& std) {
+  double weight = 0.0;
+  double sum = 0.0;
+  for (const JointWork& mine : work) {
+    if (mine.fitted && mine.fitted->fit.percussion_distance_std > 0.0) {
+      const double w = 1.0 / (mine.fitted->fit.percussion_distance_std * mine.fitted->fit.percussion_distance_std);
+      weight += w;
+      sum += w * mine.fitted->fit.model.percussion_distance;
+    }
+  }
+  distance = weight > 0.0 ? sum / weight : options.sensor.percussion_distance;
+  std = weight > 0.0 ? 1.0 / std::sqrt(weight) : options.sensor.percussion_distance_std;
+}
+
+// Rotating line i about line j by one radian, in line i's local coordinates.
+Eigen::Vector4d turn_about(const ScrewAxis& axis, const ScrewAxis& about) {
+  constexpr double step = 1e-6;
+  return local_coordinates(axis.line, transform(screw_exp(about, step), axis.line)) / step;
+}
+
+// What the encoders do not resolve: the joints beyond stand within half a count of where they say (carrying), and any other
+// joint may yield by as much in step with the test (tilt, and acceleration): three independent errors of resolution/sqrt(12).
+// Unknown joints that stand off the reference by little add that offset as it is.
+Eigen::Matrix4d pose_uncertainty(const Placed& placed, std::size_t i, const Eigen::VectorXd& resolution) {
+  const ScrewAxis& axis = *placed.chain.axes[i];
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for (std::size_t j = 0; j < placed.lines.size(); ++j) {
+    const auto joint = static_cast<Index>(j);
+    if (j == i) {
+      continue;
+    }
+    if (placed.chain.axes[j]) {
+      const Eigen::Vector4d turn = turn_about(axis, *placed.chain.axes[j]);
+      sum += 3.0 * resolution[joint] * resolution[joint] / 12.0 * turn * turn.transpose();
+    } else if (j > i) {
+      const double offset = placed.configurations[i][joint] - placed.chain.reference_configuration[joint];
+      const double reach = axis.line.point.norm() + 0.5;
+      const Eigen::Vector4d scale(offset, offset, offset * reach, offset * reach);
+      sum.diagonal() += scale.cwiseAbs2();
+    }
+  }
+  return sum;
+}
+
+Eigen::MatrixXd covariance_at_reference(const std::vector<JointWork>& work, const Placed& placed, const SensorFromGravity& sensor,
+                                        const Eigen::VectorXd& resolution) {
+  const auto joints = static_cast<Index>(work.size());
+  Eigen::MatrixXd at_tests = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
+  Eigen::MatrixXd by_sensor = Eigen::MatrixXd::Zero(4 * joints, 9);
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    if (placed.lines[i]) {
+      const auto at = 4 * static_cast<Index>(i);
+      at_tests.block<4, 4>(at, at) = work[i].fitted->fit.noise_covariance;
+      by_sensor.middleRows<4>(at) = work[i].fitted->sensor_jacobian;
+    }
+  }
+  at_tests += by_sensor * sensor.covariance * by_sensor.transpose();
+  // Central differences of the carrying by every line at its test.
+  constexpr double step = 1e-6;
+  Eigen::MatrixXd carrying = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
+  for (Index column = 0; column < 4 * joints; ++column) {
+    const auto moved = static_cast<std::size_t>(column / 4);
+    if (!placed.lines[moved]) {
+      continue;
+    }
+    std::array<PartialChain, 2> chains;
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::vector<std::optional<Line>> lines = placed.lines;
+      lines[moved] = retract(*lines[moved], (side == 0 ? step : -step) * Eigen::Vector4d::Unit(column % 4));
+      chains[side] = carry_all(lines, placed.configurations, placed.chain.reference_configuration);
+    }
+    for (std::size_t i = 0; i <= moved; ++i) {
+      if (placed.lines[i]) {
+        const Line& here = placed.chain.axes[i]->line;
+        carrying.block<4, 1>(4 * static_cast<Index>(i), column) =
+            (local_coordinates(here, chains[0].axes[i]->line) - local_coordinates(here, chains[1].axes[i]->line)) / (2.0 * step);
+      }
+    }
+  }
+  Eigen::MatrixXd covariance = carrying * at_tests * carrying.transpose();
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    if (placed.lines[i]) {
+      covariance.block<4, 4>(4 * static_cast<Index>(i), 4 * static_cast<Index>(i)) += pose_uncertainty(placed, i, resolution);
+    }
+  }
+  return covariance;
+}
+
+double largest_change(const Placed& before, const Placed& after, const std::vector<JointWork>& work) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < after.lines.size(); ++i) {
+    if (!after.chain.axes[i] || !before.chain.axes[i]) {
+      largest = std::max(largest, before.chain.axes[i].has_value() == after.chain.axes[i].has_value() ? 0.0 : 1e9);
+      continue;
+    }
+    const Eigen::Vector4d change = local_coordinates(before.chain.axes[i]->line, after.chain.axes[i]->line);
+    const Eigen::Vector4d std = work[i].fitted->fit.noise_covariance.diagonal().cwiseMax(1e-16).cwiseSqrt();
+    largest = std::max(largest, change.cwiseAbs().cwiseQuotient(std).maxCoeff());
+  }
+  return largest;
+}
+
+void name_unseen(JointCalibration& result, const Segmentation& segmentation) {
+  for (const TestFit& fit : result.fits) {
+    const JointTest& test = segmentation.tests[static_cast<std::size_t>(fit.test)];
+    if (fit.gravity_share < 0.1) {
+      result.unseen.push_back(joint_name(fit.joint) + " direction x bias: its axis is within " +
+                              std::to_string(std::asin(std::min(1.0, fit.gravity_share)) / degree) +
+                              " degrees of gravity, so a tilt of it reads like a bias; tilt the base, or estimate the bias "
+                              "from tests of the other joints");
+    }
+    if (fit.dwell_positions.size() < 3) {
+      result.unseen.push_back(joint_name(fit.joint) + " direction x centre: " + std::to_string(fit.dwell_positions.size()) +
+                              " still poses only, and in motion cos(angle) looks like acceleration; hold the joint still at "
+                              "more angles, 1 s each");
+    }
+    if (std::max(test.motion_span, test.dwell_span) < 0.5) {
+      result.unseen.push_back(joint_name(fit.joint) + " line: it turned by " +
+                              std::to_string(std::max(test.motion_span, test.dwell_span) / degree) +
+                              " degrees only; a wider arc shows its line better");
+    }
+  }
+}
+
+}  // namespace
+
+bool JointCalibration::complete() const {
+  return std::all_of(joints.begin(), joints.end(), [](const JointEstimate& joint) { return joint.axis.has_value(); });
+}
+
+ScrewChain JointCalibration::chain() const {
+  ScrewChain chain;
+  std::string missing;
+  for (const JointEstimate& joint : joints) {
+    if (joint.axis) {
+      chain.axes.push_back(joint.axis->screw);
+    } else {
+      missing += (missing.empty() ? "" : ", ") + joint_name(joint.joint);
+    }
+  }
+  if (!missing.empty()) {
+    throw NotIdentifiable("no chain: " + missing + " could not be estimated; see the reason of each");
+  }
+  chain.reference_configuration = reference_configuration;
+  return chain;
+}
+
+JointCalibration calibrate_joints(const Recording& recording, const Segmentation& segmentation,
+                                  const JointCalibrationOptions& options) {
+  validate(recording, options);
+  const double tolerance = SegmentationOptions{}.configuration_tolerance;
+  JointCalibration result;
+  result.sensor =
+      fit_sensor_from_gravity(dwell_means(segmentation), options.sensor, options.gravity, options.adapt_sensor_prior);
+  const bool regression = options.method == CalibrationMethod::joint;
+  if (!regression) {
+    // The paper's methods take the readings as they are; its subtraction of the static model removes the bias.
+    result.sensor.sensor = AccelerometerModel{};
+  }
+  std::vector<JointWork> work = gather_all(recording, segmentation, result.sensor, options);
+
+  fit_all(work, nullptr, result.sensor, options, recording.sample_rate);
+  std::vector<std::optional<Eigen::VectorXd>> tested;
+  for (const JointWork& mine : work) {
+    tested.push_back(mine.fitted ? std::optional(mine.fitted->fit.configuration) : std::nullopt);
+  }
+  result.reference_configuration =
+      options.reference_configuration ? *options.reference_configuration
+                                      : choose_reference(segmentation, tested, recording.joint_positions.row(0), tolerance);
+  Placed placed = place(work, result.reference_configuration, tolerance);
+  const auto complete_chain = [&] {
+    combine_percussion(work, options, result.percussion_distance, result.percussion_distance_std);
+    placed.chain.percussion_distance = result.percussion_distance;
+    placed.chain.up_gravity = mean_up_gravity(placed.chain, segmentation, result.sensor.sensor, tolerance);
+  };
+  complete_chain();
+  result.passes = 1;
+  result.converged = !regression;
+  while (regression && result.passes < options.max_passes && !result.converged) {
+    fit_all(work, options.use_resting_encoders ? &placed.chain : nullptr, result.sensor, options, recording.sample_rate);
+    Placed next = place(work, result.reference_configuration, tolerance);
+    // The noise that weighs the fits also settles: two passes at least.
+    result.converged = result.passes > 1 && largest_change(placed, next, work) < 0.01;
+    placed = std::move(next);
+    complete_chain();
+    ++result.passes;
+  }
+
+  result.up_gravity_sensor = placed.chain.up_gravity;
+  result.covariance = covariance_at_reference(work, placed, result.sensor, encoder_resolution(recording, options));
+  for (Index i = 0; i < recording.joints(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    JointEstimate estimate;
+    estimate.joint = i;
+    estimate.reason = work[at].reason;
+    if (work[at].fitted) {
+      estimate.fit = static_cast<Index>(result.fits.size());
+      result.fits.push_back(std::move(work[at].fitted->fit));
+    }
+    if (placed.chain.axes[at]) {
+      estimate.axis = JointAxis{*placed.chain.axes[at], result.covariance.block<4, 4>(4 * i, 4 * i)};
+    }
+    result.joints.push_back(std::move(estimate));
+  }
+  name_unseen(result, segmentation);
+  return result;
+}
+
+}  // namespace circlepoint

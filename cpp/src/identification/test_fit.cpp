@@ -1,0 +1,206 @@
+#include "test_fit.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "circlepoint/conditioning/butterworth.hpp"
+#include "circlepoint/core/error.hpp"
+
+namespace circlepoint {
+namespace {
+
+using Matrix15 = Eigen::Matrix<double, 15, 15>;
+
+double rms(const Eigen::Ref<const Samples3>& residual, double parameters) {
+  const double dof = std::max(1.0, static_cast<double>(residual.size()) - parameters);
+  return std::sqrt(residual.squaredNorm() / dof);
+}
+
+// Residual of the unconstrained regression: the noise to start from, before any model is fitted.
+double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<const Samples3>& y, int columns) {
+  if (x.rows() == 0) {
+    return 0.0;
+  }
+  const Eigen::MatrixXd used = x.leftCols(columns);
+  const Eigen::MatrixXd readings = y;
+  const Eigen::MatrixXd coefficients = used.colPivHouseholderQr().solve(readings);
+  return rms(readings - used * coefficients, 3.0 * columns);
+}
+
+// Covariance of sum x r^T (15 entries, channels stacked) from sums over blocks: residuals may be correlated within a block
+// of 0.25 s and across channels.
+Matrix15 score_covariance(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<const Samples3>& residual, double sample_rate) {
+  const Index block = std::max<Index>(1, static_cast<Index>(std::lround(0.25 * sample_rate)));
+  Matrix15 sum = Matrix15::Zero();
+  Index blocks = 0;
+  for (Index begin = 0; begin < x.rows(); begin += block) {
+    const Index count = std::min(block, x.rows() - begin);
+    const Matrix53 score = x.middleRows(begin, count).transpose() * residual.middleRows(begin, count);
+    const Eigen::Map<const Eigen::Matrix<double, 15, 1>> stacked(score.data());
+    sum += stacked * stacked.transpose();
+    ++blocks;
+  }
+  // Five coefficients a channel were fitted to the same residuals.
+  return blocks > 5 ? Matrix15(sum * (static_cast<double>(blocks) / static_cast<double>(blocks - 5))) : Matrix15(2.0 * sum);
+}
+
+// How much wider sums of these residuals are than white noise of the same variance would make them.
+double correlation_factor(const Matrix15& score, const Matrix5& information, double variance) {
+  const Matrix5 ridge = 1e-12 * information.diagonal().asDiagonal().toDenseMatrix();
+  const Eigen::LDLT<Matrix5> factor(information + ridge);
+  double sum = 0.0;
+  for (int channel = 0; channel < 3; ++channel) {
+    sum += factor.solve(score.block<5, 5>(5 * channel, 5 * channel)).trace();
+  }
+  return std::clamp(sum / (15.0 * std::max(variance, 1e-300)), 1.0, 1e6);
+}
+
+// Derivative of the weighted score by the sensor's bias, scale and misalignment errors: the readings are linear in them.
+Eigen::Matrix<double, 15, 9> score_by_sensor(const RegressionStatistics& weighted) {
+  Eigen::Matrix<double, 15, 9> derivative = Eigen::Matrix<double, 15, 9>::Zero();
+  for (int channel = 0; channel < 3; ++channel) {
+    derivative.block<5, 1>(5 * channel, channel) = -weighted.information.col(0);
+    derivative.block<5, 1>(5 * channel, 3 + channel) = -weighted.score.col(channel);
+  }
+  derivative.block<5, 1>(5, 6) = -weighted.score.col(0);
+  derivative.block<5, 1>(10, 7) = -weighted.score.col(0);
+  derivative.block<5, 1>(10, 8) = -weighted.score.col(1);
+  return derivative;
+}
+
+// Rank and condition of the information in units of each parameter's own standard deviation.
+void describe_information(TestFit& fit, const JointModelMatrix& information) {
+  const Eigen::Matrix<double, joint_model_parameters, 1> root = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const JointModelMatrix scaled = root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<JointModelMatrix> solver(scaled, Eigen::EigenvaluesOnly);
+  const Eigen::Matrix<double, joint_model_parameters, 1> eigenvalues = solver.eigenvalues();
+  fit.parameters = joint_model_parameters;
+  fit.rank = static_cast<int>((eigenvalues.array() > 1e-12 * eigenvalues[joint_model_parameters - 1]).count());
+  fit.condition_number = eigenvalues[joint_model_parameters - 1] / std::max(eigenvalues[0], 1e-300);
+}
+
+}  // namespace
+
+TestRegression make_regression(const TestSamples& samples, const PartialChain* chain, int filter_order) {
+  const Index joint = samples.joint;
+  const double zero = samples.configuration[joint];
+  const bool correct = chain != nullptr && chain->knows(joint);
+  TestRegression problem;
+  const Index dwells = samples.dwell_force.rows();
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(dwells);
+  problem.static_regressors = joint_regressors(samples.dwell_positions.col(joint).array() - zero, still, still);
+  problem.static_readings = samples.dwell_force;
+  if (correct && dwells > 0) {
+    const SamplesX at_rest = SamplesX::Zero(dwells, samples.dwell_positions.cols());
+    problem.static_readings -=
+        yield_correction(*chain, joint, samples.configuration, samples.dwell_positions, at_rest, at_rest);
+  }
+  Index total = 0;
+  for (const MotionSamples& motion : samples.motions) {
+    total += motion.time.size() - motion.trim_begin - motion.trim_end;
+  }
+  problem.dynamic_regressors.resize(total, 5);
+  problem.dynamic_readings.resize(total, 3);
+  problem.time.resize(total);
+  problem.position.resize(total);
+  Index row = 0;
+  for (const MotionSamples& motion : samples.motions) {
+    problem.sample_rate = static_cast<double>(motion.time.size() - 1) / (motion.time[motion.time.size() - 1] - motion.time[0]);
+    SamplesX both(motion.time.size(), 8);
+    both.leftCols<5>() = joint_regressors(motion.position.col(joint).array() - zero, motion.velocity.col(joint),
+                                          motion.acceleration.col(joint));
+    both.rightCols<3>() = motion.specific_force;
+    if (correct) {
+      both.rightCols<3>() -= yield_correction(*chain, joint, samples.configuration, motion.position, motion.velocity,
+                                              motion.acceleration);
+    }
+    both = sosfiltfilt(butter(filter_order, samples.cutoff, problem.sample_rate), both);
+    const Index count = motion.time.size() - motion.trim_begin - motion.trim_end;
+    problem.dynamic_regressors.middleRows(row, count) = both.middleRows(motion.trim_begin, count).leftCols<5>();
+    problem.dynamic_readings.middleRows(row, count) = both.middleRows(motion.trim_begin, count).rightCols<3>();
+    problem.time.segment(row, count) = motion.time.segment(motion.trim_begin, count);
+    problem.position.segment(row, count) = motion.position.col(joint).segment(motion.trim_begin, count);
+    row += count;
+  }
+  return problem;
+}
+
+void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model) {
+  fit.joint = samples.joint;
+  fit.test = samples.test;
+  fit.configuration = samples.configuration;
+  fit.cutoff = samples.cutoff;
+  fit.model = model;
+  fit.samples = regression.static_readings.rows() + regression.dynamic_readings.rows();
+  fit.time = regression.time;
+  fit.position = regression.position;
+  fit.measured = regression.dynamic_readings;
+  fit.modelled = regression.dynamic_regressors * model.coefficients();
+  fit.dwell_positions = samples.dwell_positions.col(samples.joint);
+  fit.dwell_measured = regression.static_readings;
+  fit.dwell_modelled = regression.static_regressors * model.coefficients();
+  fit.dwell_noise_std = samples.dwell_floor;
+  fit.static_noise_std = std::max(rms(fit.dwell_measured - fit.dwell_modelled, 7.0), samples.dwell_floor);
+  fit.dynamic_noise_std = std::max(rms(fit.measured - fit.modelled, 10.0), 1e-6);
+}
+
+FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* chain, const JointModelPrior& prior,
+                             const TestNoise& noise, int filter_order) {
+  if (samples.motions.empty()) {
+    throw NotIdentifiable("only still poses of it were found, no motion: they show the axis' direction but not its place; "
+                          "record a motion of this joint alone, for example 0.5 Hz over 150 degrees for 6 s");
+  }
+  const TestRegression problem = make_regression(samples, chain, filter_order);
+  TestNoise used = noise;
+  if (used.static_std <= 0.0) {
+    used.static_std = linear_residual(problem.static_regressors, problem.static_readings, 3);
+  }
+  if (used.dynamic_std <= 0.0) {
+    used.dynamic_std = linear_residual(problem.dynamic_regressors, problem.dynamic_readings, 5);
+    used.correlation_factor = problem.sample_rate / (4.0 * samples.cutoff);
+  }
+  used.static_std = std::max({used.static_std, samples.dwell_floor, 1e-6});
+  used.dynamic_std = std::max(used.dynamic_std, 1e-6);
+
+  RegressionStatistics at_rest;
+  at_rest.add(problem.static_regressors, problem.static_readings);
+  RegressionStatistics moving;
+  moving.add(problem.dynamic_regressors, problem.dynamic_readings);
+  const double static_weight = 1.0 / (used.static_std * used.static_std);
+  const double dynamic_weight = 1.0 / (used.dynamic_std * used.dynamic_std * used.correlation_factor);
+  RegressionStatistics weighted = at_rest.scaled(static_weight);
+  weighted += moving.scaled(dynamic_weight);
+
+  const JointModelFit solution = fit_joint_model(weighted, prior);
+  FittedTest fitted;
+  record_fit(fitted.fit, samples, problem, solution.model);
+  fitted.fit.iterations = solution.iterations;
+  fitted.fit.converged = solution.converged;
+  describe_information(fitted.fit, solution.data_information);
+  fitted.fit.gravity_share = solution.model.gravity.norm() / prior.gravity;
+
+  // Sandwich: static part and prior as assumed, dynamic part as its residuals show.
+  const Matrix15 score = score_covariance(problem.dynamic_regressors, fitted.fit.measured - fitted.fit.modelled, problem.sample_rate);
+  const double variance = fitted.fit.dynamic_noise_std * fitted.fit.dynamic_noise_std;
+  fitted.noise = {fitted.fit.static_noise_std, fitted.fit.dynamic_noise_std,
+                  correlation_factor(score, moving.information, variance)};
+  fitted.fit.correlation_factor = fitted.noise.correlation_factor;
+  Matrix15 assumed = Matrix15::Zero();
+  for (int channel = 0; channel < 3; ++channel) {
+    assumed.block<5, 5>(5 * channel, 5 * channel) = dynamic_weight * moving.information;
+  }
+  const JointModelMatrix inverse = solution.information.inverse();
+  const JointModelMatrix meat = solution.information - solution.jacobian.transpose() * assumed * solution.jacobian +
+                                dynamic_weight * dynamic_weight * solution.jacobian.transpose() * score * solution.jacobian;
+  const JointModelMatrix covariance = inverse * meat * inverse;
+  const Eigen::Matrix<double, 4, joint_model_parameters> selector = JointModelFit::line_selector();
+  fitted.fit.noise_covariance = selector * covariance * selector.transpose();
+  fitted.fit.percussion_distance_std = std::sqrt(std::max(0.0, covariance(9, 9)));
+  fitted.sensor_jacobian = selector * inverse * solution.jacobian.transpose() * score_by_sensor(weighted);
+  return fitted;
+}
+
+}  // namespace circlepoint

@@ -1,0 +1,71 @@
+#include <algorithm>
+
+#include "circlepoint/core/error.hpp"
+#include "circlepoint/identification/axis_direction.hpp"
+#include "circlepoint/identification/center_of_rotation.hpp"
+#include "test_fit.hpp"
+
+namespace circlepoint {
+namespace {
+
+const MotionSamples& widest_motion(const TestSamples& samples) {
+  if (samples.motions.empty()) {
+    throw NotIdentifiable("no motion of this joint alone was found; record one, for example 0.5 Hz over 150 degrees for 6 s");
+  }
+  const auto travel = [&](const MotionSamples& motion) {
+    const auto column = motion.position.col(samples.joint);
+    return column.maxCoeff() - column.minCoeff();
+  };
+  return *std::max_element(samples.motions.begin(), samples.motions.end(),
+                           [&](const auto& a, const auto& b) { return travel(a) < travel(b); });
+}
+
+}  // namespace
+
+FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, double sample_rate,
+                        const JointCalibrationOptions& options) {
+  if (samples.dwell_force.rows() < 3) {
+    throw NotIdentifiable("the static test has " + std::to_string(samples.dwell_force.rows()) +
+                          " poses and needs at least 3; hold the joint still at more angles, 1 s each");
+  }
+  const Eigen::VectorXd angle = samples.dwell_positions.col(samples.joint).array() - samples.configuration[samples.joint];
+  const AxisDirectionFit axis = fit_axis_direction_robust(samples.dwell_force);
+  const Eigen::Vector3d z = orient_axis(axis.direction, angle, samples.dwell_force);
+  const GravityModel gravity = fit_gravity_model(angle, samples.dwell_force);
+
+  const MotionSamples& motion = widest_motion(samples);
+  CenterOptions center_options;
+  center_options.cutoff = samples.cutoff;
+  center_options.filter_order = options.filter_order;
+  center_options.percussion_distance = options.sensor.percussion_distance;
+  const Eigen::VectorXd moving = motion.position.col(samples.joint).array() - samples.configuration[samples.joint];
+  const CenterOfRotation center =
+      method == CalibrationMethod::position
+          ? center_by_position(moving, motion.specific_force, sample_rate, z, gravity, center_options)
+          : center_by_velocity(moving, motion.specific_force, sample_rate, z, gravity, center_options);
+
+  JointModel model;
+  model.axis = z;
+  model.lever = center.lever_sensor - center.lever_sensor.dot(z) * z;
+  model.gravity = gravity.cosine - gravity.cosine.dot(z) * z;
+  model.constant = gravity.constant;
+  model.percussion_distance = options.sensor.percussion_distance;
+
+  FittedTest fitted;
+  record_fit(fitted.fit, samples, make_regression(samples, nullptr, options.filter_order), model);
+  fitted.fit.iterations = center.iterations;
+  fitted.fit.converged = center.converged && axis.converged;
+  fitted.fit.gravity_share = model.gravity.norm() / options.gravity;
+  // The plane fit's basis belongs to the direction's sign: u stays, v turns with it.
+  Eigen::Matrix2d direction = axis.covariance;
+  if (z.dot(axis.direction) < 0.0) {
+    direction(0, 1) = -direction(0, 1);
+    direction(1, 0) = -direction(1, 0);
+  }
+  fitted.fit.noise_covariance.topLeftCorner<2, 2>() = direction;
+  fitted.fit.noise_covariance.bottomRightCorner<2, 2>() =
+      center.point_std * center.point_std * Eigen::Matrix2d::Identity();
+  return fitted;
+}
+
+}  // namespace circlepoint

@@ -1,0 +1,125 @@
+#include "test_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "circlepoint/conditioning/butterworth.hpp"
+#include "circlepoint/conditioning/differentiate.hpp"
+
+namespace circlepoint {
+namespace {
+
+IndexRange widen(const Recording& recording, const IndexRange& range, Index margin) {
+  for (const IndexRange& span : recording.spans) {
+    if (range.begin >= span.begin && range.end <= span.end) {
+      return {std::max(span.begin, range.begin - margin), std::min(span.end, range.end + margin)};
+    }
+  }
+  return range;
+}
+
+MotionSamples condition(const Recording& recording, const SingleJointMotion& motion, double cutoff,
+                        const AccelerometerModel& sensor, int filter_order) {
+  const double rate = recording.sample_rate;
+  // Smoothing the encoders needs run-in; the samples used are the motion's own.
+  const IndexRange wide = widen(recording, motion.samples, static_cast<Index>(std::lround(2.0 * rate / cutoff)));
+  const double smooth = std::min(3.0 * cutoff, 0.4 * rate);
+  const SamplesX position =
+      sosfiltfilt(butter(filter_order, smooth, rate), recording.joint_positions.middleRows(wide.begin, wide.size()));
+  const SamplesX velocity = gradient(position, 1.0 / rate);
+  const SamplesX acceleration = gradient(velocity, 1.0 / rate);
+  const Index skip = motion.samples.begin - wide.begin;
+  const Index count = motion.samples.size();
+  MotionSamples samples;
+  samples.time = recording.time.segment(motion.samples.begin, count);
+  samples.position = position.middleRows(skip, count);
+  samples.velocity = velocity.middleRows(skip, count);
+  samples.acceleration = acceleration.middleRows(skip, count);
+  samples.specific_force.resize(count, 3);
+  for (Index i = 0; i < count; ++i) {
+    samples.specific_force.row(i) =
+        sensor.correct(recording.specific_force.row(motion.samples.begin + i).transpose(), Eigen::Vector3d::Zero());
+  }
+  const Index run_in = static_cast<Index>(std::lround(rate / cutoff));
+  samples.trim_begin = motion.from_rest ? 0 : run_in;
+  samples.trim_end = motion.to_rest ? 0 : run_in;
+  return samples;
+}
+
+}  // namespace
+
+Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibrationOptions& options) {
+  if (options.encoder_resolution.size() == recording.joints()) {
+    return options.encoder_resolution;
+  }
+  Eigen::VectorXd resolution = Eigen::VectorXd::Zero(recording.joints());
+  for (Index joint = 0; joint < recording.joints(); ++joint) {
+    double smallest = 0.0;
+    for (Index i = 1; i < recording.samples(); ++i) {
+      const double step = std::abs(recording.joint_positions(i, joint) - recording.joint_positions(i - 1, joint));
+      if (step > 1e-8 && (smallest == 0.0 || step < smallest)) {
+        smallest = step;
+      }
+    }
+    resolution[joint] = smallest;
+  }
+  return resolution;
+}
+
+double choose_cutoff(const Recording& recording, const Segmentation& segmentation, const JointTest& test, double resolution) {
+  constexpr double widest = 10.0;         // Hz, the paper's choice for its motion
+  constexpr double reach = 1.0;           // m
+  constexpr double tolerated = 0.02;      // m/s^2 of differentiated quantisation at that reach
+  double frequency = 0.0;
+  double travel = 0.0;
+  for (const Index index : test.motions) {
+    const SingleJointMotion& motion = segmentation.motions[static_cast<std::size_t>(index)];
+    if (motion.travel > travel) {
+      travel = motion.travel;
+      frequency = motion.peak_velocity / (std::numbers::pi * motion.travel);
+    }
+  }
+  double cutoff = widest;
+  if (resolution > 0.0) {
+    // White quantisation noise of resolution / sqrt(12), differentiated twice and cut at c:
+    // std = resolution / sqrt(12) sqrt(2 c / rate) (2 pi c)^2 / sqrt(5).
+    const double per_unit = reach * resolution / std::sqrt(12.0) * std::sqrt(2.0 / recording.sample_rate) * 4.0 *
+                            std::numbers::pi * std::numbers::pi / std::sqrt(5.0);
+    cutoff = std::min(cutoff, std::pow(tolerated / per_unit, 0.4));
+  }
+  return std::min(std::max(cutoff, 6.0 * frequency), 0.2 * recording.sample_rate);
+}
+
+TestSamples gather(const Recording& recording, const Segmentation& segmentation, Index test_index,
+                   const AccelerometerModel& sensor, const Eigen::VectorXd& resolution,
+                   const JointCalibrationOptions& options) {
+  const JointTest& test = segmentation.tests[static_cast<std::size_t>(test_index)];
+  TestSamples samples;
+  samples.joint = test.joint;
+  samples.test = test_index;
+  samples.configuration = test.configuration;
+  samples.cutoff = options.cutoff > 0.0 ? options.cutoff
+                                        : choose_cutoff(recording, segmentation, test, resolution.maxCoeff());
+  const auto dwells = static_cast<Index>(test.dwells.size());
+  samples.dwell_positions.resize(dwells, recording.joints());
+  samples.dwell_force.resize(dwells, 3);
+  double variance = 0.0;
+  for (Index k = 0; k < dwells; ++k) {
+    const StaticDwell& dwell = segmentation.dwells[static_cast<std::size_t>(test.dwells[static_cast<std::size_t>(k)])];
+    samples.dwell_positions.row(k) = dwell.joint_positions;
+    samples.dwell_force.row(k) = sensor.correct(dwell.specific_force, Eigen::Vector3d::Zero());
+    variance += dwell.specific_force_std.squaredNorm() / 3.0 / static_cast<double>(std::max<Index>(1, dwell.samples.size()));
+  }
+  samples.dwell_floor = dwells > 0 ? std::sqrt(variance / static_cast<double>(dwells)) : 0.0;
+  const auto shortest = static_cast<Index>(std::lround(0.2 * recording.sample_rate));
+  for (const Index index : test.motions) {
+    const SingleJointMotion& motion = segmentation.motions[static_cast<std::size_t>(index)];
+    if (motion.samples.size() > std::max<Index>(shortest, 32)) {
+      samples.motions.push_back(condition(recording, motion, samples.cutoff, sensor, options.filter_order));
+    }
+  }
+  return samples;
+}
+
+}  // namespace circlepoint

@@ -1,0 +1,197 @@
+"""The main job: from a recording to a calibrated arm, every intermediate kept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import circlepoint
+from circlepoint.arm import Arm
+from circlepoint.document import Document
+from circlepoint.nominal import joint_types, nominal_dh_chain
+from circlepoint.result_document import result_document
+from circlepoint.sensor_presets import load_sensor
+
+Method = Literal["joint", "position", "velocity"]
+DhConversion = circlepoint.StandardDhConversion | circlepoint.ModifiedDhConversion
+
+UNSPECIFIED_SENSOR = "generic"
+"""Preset taken when nothing is said of the sensor; the dwells then set how wide its figures are."""
+
+
+@dataclass(frozen=True)
+class NamedFit:
+    """One joint test's fit under its joint's name; signals in s, rad and m/s^2 (see `circlepoint.TestFit`)."""
+
+    joint_name: str
+    result: circlepoint.TestFit
+
+    @property
+    def joint(self) -> int:
+        """Joint, from 0."""
+        return self.result.joint
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """(M,) s."""
+        return self.result.time
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """(M,) rad."""
+        return self.result.position
+
+    @property
+    def measured(self) -> NDArray[np.float64]:
+        """(M, 3) m/s^2, filtered, corrected for sensor errors and yielding joints."""
+        return self.result.measured
+
+    @property
+    def modelled(self) -> NDArray[np.float64]:
+        """(M, 3) m/s^2, through the same filter."""
+        return self.result.modelled
+
+    @property
+    def dwell_positions(self) -> NDArray[np.float64]:
+        """(K,) rad."""
+        return self.result.dwell_positions
+
+    @property
+    def dwell_measured(self) -> NDArray[np.float64]:
+        """(K, 3) m/s^2."""
+        return self.result.dwell_measured
+
+    @property
+    def dwell_modelled(self) -> NDArray[np.float64]:
+        """(K, 3) m/s^2."""
+        return self.result.dwell_modelled
+
+    @property
+    def residual_rms(self) -> float:
+        """m/s^2, of the filtered samples about the model."""
+        return self.result.dynamic_noise_std
+
+    @property
+    def cutoff(self) -> float:
+        """Hz."""
+        return self.result.cutoff
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """A calibrated arm and everything it was made from.
+
+    Attributes
+    ----------
+    arm : Arm
+        The description it was asked for.
+    recording : Recording
+        What was recorded.
+    segmentation : Segmentation
+        The dwells, motions and tests found in it.
+    joints : JointCalibration
+        Every joint's axis, or the reason there is none.
+    chain : ScrewChain or None
+        All axes, base frame = sensor frame at the reference configuration; None while a joint is missing.
+    dh : StandardDhConversion, ModifiedDhConversion or None
+        The same chain in the arm's Denavit-Hartenberg convention.
+    fits : tuple of NamedFit
+        Each test's signals and model.
+    document : dict
+        The content of ``calibration.json``.
+    """
+
+    arm: Arm
+    recording: circlepoint.Recording
+    segmentation: circlepoint.Segmentation
+    joints: circlepoint.JointCalibration
+    chain: circlepoint.ScrewChain | None
+    dh: DhConversion | None
+    fits: tuple[NamedFit, ...]
+    document: Document
+
+
+def calibrate(
+    recording: circlepoint.Recording,
+    arm: Arm,
+    *,
+    method: Method = "joint",
+    sensor: circlepoint.AccelerometerSpecification | None = None,
+    gravity: float = circlepoint.STANDARD_GRAVITY,
+    reference_configuration: ArrayLike | None = None,
+) -> Calibration:
+    """Calibrate an arm from one recording.
+
+    Parameters
+    ----------
+    recording : Recording
+        Joint positions and specific force on one clock.
+    arm : Arm
+        Joints, and what is known nominally.
+    method : {"joint", "position", "velocity"}
+        Regression joint by joint, or one of the two methods of Canepa, Hollerbach and Boelen (1994).
+    sensor : AccelerometerSpecification, optional
+        What is known of the sensor. Without it a wide range of kinds is allowed for, and the readings at rest say how wide.
+    gravity : float
+        Local magnitude, m/s^2.
+    reference_configuration : array_like, shape (n,), optional
+        rad or m; where the lines are given. Default: the dwell that serves most joints.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    InvalidInput
+        For a recording that does not fit the arm, or options out of range.
+    """
+    options = _options(arm, method, sensor, gravity, reference_configuration)
+    segmentation = circlepoint.segment(recording)
+    joints = circlepoint.calibrate_joints(recording, segmentation, options)
+    chain = joints.chain() if joints.complete() else None
+    dh = _to_dh(chain, arm)
+    return Calibration(
+        arm=arm,
+        recording=recording,
+        segmentation=segmentation,
+        joints=joints,
+        chain=chain,
+        dh=dh,
+        fits=tuple(NamedFit(arm.joints[fit.joint].name, fit) for fit in joints.fits),
+        document=result_document(arm, method, gravity, segmentation, joints, chain, dh),
+    )
+
+
+def _options(
+    arm: Arm,
+    method: Method,
+    sensor: circlepoint.AccelerometerSpecification | None,
+    gravity: float,
+    reference_configuration: ArrayLike | None,
+) -> circlepoint.JointCalibrationOptions:
+    options = circlepoint.JointCalibrationOptions()
+    options.method = circlepoint.CalibrationMethod[method]
+    options.sensor = load_sensor(UNSPECIFIED_SENSOR) if sensor is None else sensor
+    options.adapt_sensor_prior = sensor is None
+    options.gravity = gravity
+    options.joint_types = joint_types(arm)
+    steps: Sequence[float | None] = [arm.encoder_step(joint) for joint in range(len(arm.joints))]
+    if all(step is not None for step in steps):
+        options.encoder_resolution = np.array(steps, dtype=float)
+    if reference_configuration is not None:
+        options.reference_configuration = np.asarray(reference_configuration, dtype=float)
+    return options
+
+
+def _to_dh(chain: circlepoint.ScrewChain | None, arm: Arm) -> DhConversion | None:
+    if chain is None:
+        return None
+    nominal = nominal_dh_chain(arm)
+    if isinstance(nominal, circlepoint.ModifiedDhChain):
+        return circlepoint.to_modified_dh(chain, nominal)
+    return circlepoint.to_standard_dh(chain, nominal)

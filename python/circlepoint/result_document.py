@@ -1,0 +1,239 @@
+"""A calibration's numbers under the names of ``calibration.json``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+import circlepoint
+from circlepoint.document import (
+    SCHEMA_NAME,
+    Document,
+    dh_row_entry,
+    estimate_entry,
+    generator_entry,
+    joint_entry,
+    missing_joint_entry,
+    plain,
+)
+
+if TYPE_CHECKING:
+    from circlepoint.arm import Arm
+    from circlepoint.calibrate import DhConversion
+
+LINE_COORDINATES = ("d1", "d2", "p1", "p2")
+WORKSPACE_CONFIGURATIONS = 200
+LARGEST_CONDITION = 1e15
+"""Beyond it a condition number says no more than that the matrix is singular."""
+
+
+def result_document(
+    arm: Arm,
+    method: str,
+    gravity: float,
+    segmentation: circlepoint.Segmentation,
+    joints: circlepoint.JointCalibration,
+    chain: circlepoint.ScrewChain | None,
+    dh: DhConversion | None,
+) -> Document:
+    """Return the document of a calibration; every field is described in the schema.
+
+    Parameters
+    ----------
+    arm : Arm
+    method : str
+    gravity : float
+        m/s^2, taken as known.
+    segmentation : Segmentation
+    joints : JointCalibration
+    chain : ScrewChain or None
+    dh : StandardDhConversion, ModifiedDhConversion or None
+    """
+    estimated = [estimate.joint for estimate in joints.joints if estimate.axis is not None]
+    return {
+        "schema": SCHEMA_NAME,
+        "generator": generator_entry(),
+        "arm": arm.name,
+        "method": method,
+        "complete": joints.complete(),
+        "reference_configuration": plain(joints.reference_configuration),
+        "joints": _joint_entries(arm, segmentation, joints),
+        "gravity_magnitude": gravity,
+        "gravity_sensor": plain(joints.up_gravity_sensor) if estimated else None,
+        "sensor": _sensor_entry(method, joints),
+        "dh": _dh_entry(arm, chain, dh, joints),
+        "covariance": _covariance_entry(arm, joints, estimated),
+        "identifiability": _identifiability_entry(arm, joints),
+        "fit": _fit_entry(joints),
+        "end_point": _end_point_entry(arm, chain, joints),
+        "findings": [],
+    }
+
+
+def _joint_entries(
+    arm: Arm, segmentation: circlepoint.Segmentation, joints: circlepoint.JointCalibration
+) -> list[Document]:
+    entries = []
+    for joint, estimate in zip(arm.joints, joints.joints, strict=True):
+        fit = joints.fits[estimate.fit] if estimate.fit >= 0 else None
+        tests = [
+            _test_entry(test, fit if fit is not None and fit.test == index else None)
+            for index, test in enumerate(segmentation.tests)
+            if test.joint == estimate.joint
+        ]
+        if estimate.axis is None:
+            entries.append(missing_joint_entry(joint.name, joint.type, estimate.reason, tests))
+            continue
+        line = estimate.axis.screw.line
+        entries.append(
+            joint_entry(
+                joint.name,
+                joint.type,
+                direction=line.direction,
+                point=line.point,
+                direction_std=estimate.axis.direction_std(),
+                point_std=estimate.axis.point_std(),
+                covariance=estimate.axis.covariance,
+                basis=circlepoint.tangent_basis(line.direction).T,
+                tests=tests,
+            )
+        )
+    return entries
+
+
+def _test_entry(test: circlepoint.JointTest, fit: circlepoint.TestFit | None) -> Document:
+    entry: Document = {
+        "configuration": test.configuration,
+        "dwells": len(test.dwells),
+        "dwell_span": test.dwell_span,
+        "motions": len(test.motions),
+        "motion_span": test.motion_span,
+        "used": fit is not None,
+    }
+    if fit is not None:
+        entry |= {
+            "samples": fit.samples,
+            "cutoff": fit.cutoff,
+            "static_noise_std": fit.static_noise_std,
+            "dynamic_noise_std": fit.dynamic_noise_std,
+            "gravity_share": fit.gravity_share,
+            "condition_number": _condition(fit.condition_number),
+            "correlation_factor": fit.correlation_factor,
+            "converged": fit.converged,
+            "iterations": fit.iterations,
+        }
+    return entry
+
+
+def _condition(value: float) -> float | None:
+    return value if 0.0 < value < LARGEST_CONDITION else None
+
+
+def _sensor_entry(method: str, joints: circlepoint.JointCalibration) -> Document:
+    entry: Document = dict.fromkeys(
+        ("bias", "scale", "misalignment", "percussion_distance", "clock_offset", "clock_rate")
+    )
+    if method == "joint":
+        std = np.sqrt(np.diag(joints.sensor.covariance))
+        sensor = joints.sensor.sensor
+        entry["bias"] = estimate_entry(sensor.bias, std[:3])
+        entry["scale"] = estimate_entry(sensor.scale, std[3:6])
+        entry["misalignment"] = estimate_entry(sensor.misalignment, std[6:])
+        entry["percussion_distance"] = estimate_entry(joints.percussion_distance, joints.percussion_distance_std)
+    return entry
+
+
+def _dh_entry(
+    arm: Arm, chain: circlepoint.ScrewChain | None, dh: DhConversion | None, joints: circlepoint.JointCalibration
+) -> Document | None:
+    if chain is None or dh is None:
+        return None
+    jacobian = circlepoint.dh_parameter_jacobian(chain, dh)
+    variance = np.einsum("ij,jk,ik->i", jacobian, joints.covariance, jacobian).reshape(-1, 4)
+    rows = [
+        dh_row_entry(
+            (row.a, row.alpha, row.d, row.theta),
+            [None if np.isnan(v) else float(np.sqrt(max(v, 0.0))) for v in variances],
+            free,
+        )
+        for row, variances, free in zip(dh.chain.rows, variance, np.asarray(dh.free, dtype=bool).tolist(), strict=True)
+    ]
+    return {
+        "convention": "modified" if isinstance(dh.chain, circlepoint.ModifiedDhChain) else "standard",
+        "rows": rows,
+        "base": plain(dh.chain.base),
+        "tool": plain(dh.chain.tool),
+        "near_parallel": [
+            [arm.joints[pair.first].name, arm.joints[pair.first + 1].name] for pair in dh.near_parallel
+        ],
+    }
+
+
+def _covariance_entry(arm: Arm, joints: circlepoint.JointCalibration, estimated: Sequence[int]) -> Document | None:
+    if not estimated:
+        return None
+    keep = [4 * joint + k for joint in estimated for k in range(4)]
+    return {
+        "parameters": [f"{arm.joints[joint].name}.{name}" for joint in estimated for name in LINE_COORDINATES],
+        "matrix": plain(joints.covariance[np.ix_(keep, keep)]),
+    }
+
+
+def _identifiability_entry(arm: Arm, joints: circlepoint.JointCalibration) -> Document:
+    conditions = [fit.condition_number for fit in joints.fits if fit.condition_number > 0.0]
+    missing = [f"{joint.name} line: {estimate.reason}" for joint, estimate in zip(arm.joints, joints.joints, strict=True) if estimate.axis is None]
+    return {
+        "rank": sum(fit.rank for fit in joints.fits),
+        "parameters": sum(fit.parameters for fit in joints.fits),
+        "condition_number": _condition(max(conditions)) if conditions else None,
+        "unseen": [*joints.unseen, *missing],
+    }
+
+
+def _fit_entry(joints: circlepoint.JointCalibration) -> Document:
+    fits = joints.fits
+    return {
+        "samples": sum(fit.samples for fit in fits),
+        "noise_std": _rms([fit.dynamic_noise_std for fit in fits]),
+        "static_noise_std": _rms([fit.static_noise_std for fit in fits]),
+        "residual_rms": _rms([fit.dynamic_noise_std for fit in fits]),
+        "normalised_residual_rms": _rms(
+            [fit.static_noise_std / fit.dwell_noise_std for fit in fits if fit.dwell_noise_std > 0.0]
+        ),
+        "iterations": joints.passes,
+        "converged": joints.converged and all(fit.converged for fit in fits),
+    }
+
+
+def _rms(values: Sequence[float]) -> float | None:
+    return float(np.sqrt(np.mean(np.square(values)))) if values else None
+
+
+def _end_point_entry(
+    arm: Arm, chain: circlepoint.ScrewChain | None, joints: circlepoint.JointCalibration
+) -> Document | None:
+    if chain is None:
+        return None
+    std = circlepoint.end_point_std(chain, joints.covariance, workspace(arm, joints.reference_configuration))
+    return {
+        "rms": float(np.sqrt(np.mean(np.square(std)))),
+        "max": float(np.max(std)),
+        "configurations": len(std),
+    }
+
+
+def workspace(arm: Arm, reference_configuration: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return configurations (P, n) that sample the arm's joint ranges, always the same ones.
+
+    A revolute joint without limits ranges half a turn either way of the reference, a prismatic one 0.1 m.
+    """
+    uniform = np.random.default_rng(0).uniform(size=(WORKSPACE_CONFIGURATIONS, len(arm.joints)))
+    low, high = np.empty(len(arm.joints)), np.empty(len(arm.joints))
+    for index, joint in enumerate(arm.joints):
+        reach = np.pi if joint.revolute else 0.1
+        middle = reference_configuration[index]
+        low[index], high[index] = joint.limits or (middle - reach, middle + reach)
+    return np.ascontiguousarray(low + uniform * (high - low))
