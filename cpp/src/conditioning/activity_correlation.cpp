@@ -153,7 +153,8 @@ CoarseAlignment correlate(const Activity& joints, const Activity& sensor, double
   return {clock, scale > 0.0 ? product / scale : 0.0};
 }
 
-WindowDelay window_delay(const Activity& joints, const Activity& sensor, const RelativeClock& clock, double begin, double end,
+WindowDelay window_delay(const Activity& joints, const Activity& sensor, const RelativeClock& clock, double begin,
+    double end,
                          double range) {
   const auto first = std::max<Index>(0, static_cast<Index>(std::ceil(begin / grid_period)));
   const auto last = std::min<Index>(joints.values.size() - 1, static_cast<Index>(end / grid_period));

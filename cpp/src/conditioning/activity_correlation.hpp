@@ -1,6 +1,6 @@
 #pragma once
-// The coarse alignment: when the joints move, the specific force changes. Their activities are correlated over all offsets
-// and rates by a pyramid, coarse in time first.
+// The coarse alignment: when the joints move, the specific force changes. Their activities are correlated over all
+// offsets and rates by a pyramid, coarse in time first.
 
 #include <Eigen/Core>
 
@@ -40,7 +40,8 @@ struct WindowDelay {
   double correlation = 0.0;
   double width = 0.0;  // s, of the correlation's peak
 };
-WindowDelay window_delay(const Activity& joints, const Activity& sensor, const RelativeClock& clock, double begin, double end,
+WindowDelay window_delay(const Activity& joints, const Activity& sensor, const RelativeClock& clock, double begin,
+    double end,
                          double range);
 
 }  // namespace circlepoint::detail

@@ -21,12 +21,14 @@ using namespace detail;
 constexpr double enough_rate = 200.0;   // Hz, for delays measured on signals below the cut-off
 constexpr double first_range = 0.4;     // s, how far the correlation of activities may be off
 constexpr double largest_std = 0.03;    // s, delays known worse than this are not used
+constexpr double least_path_std = 0.005;   // s, of a delay from a motion along a path: its model is approximate
 constexpr double least_window_std = 0.01;  // s, of a delay from the correlation of activities alone
+constexpr double lever = 1.0;              // m, of joints that yield
 constexpr double least_correlation = 0.3;  // of the activities over the whole overlap
 
 constexpr const char* what_to_record =
-    "record a motion of one joint alone (a few seconds, 0.5 rad or more, the others at rest) at the start of the log and "
-    "another at its end, with both loggers running";
+    "record a motion of one joint alone (a few seconds, 0.5 rad or more, the others at rest) at the start of the log "
+    "and another at its end, with both loggers running";
 
 struct Measured {
   const MotionModel* model = nullptr;
@@ -36,12 +38,16 @@ struct Measured {
 
 class Alignment {
  public:
-  Alignment(const UniformStream& joints, const UniformStream& sensor, const ClockAlignmentOptions& options)
-      : joints_(joints), sensor_(sensor), options_(options), margin_(4.0 * gaussian_sigma(options.cutoff)),
+  // `encoder_step`: rad or m. Joints may yield by so much unseen; gravity's turn and the acceleration at a lever of a
+  // metre are then an error in phase with the motion, which the residual alone does not show.
+  Alignment(const UniformStream& joints, const UniformStream& sensor, double encoder_step,
+      const ClockAlignmentOptions& options)
+      : joints_(joints), sensor_(sensor), options_(options), encoder_step_(encoder_step), margin_(4.0
+          * gaussian_sigma(options.cutoff)),
         smooth_sensor_(smooth(sensor, sensor.values, gaussian_sigma(options.cutoff), 0)) {}
 
-  // The clock under which all motions together leave the least residual, around `start`: a search in two dimensions, because
-  // one motion alone may fit better at a wrong delay.
+  // The clock under which all motions together leave the least residual, around `start`: a search in two dimensions,
+  // because one motion alone may fit better at a wrong delay.
   RelativeClock consensus(const std::vector<MotionModel>& models, const RelativeClock& start) const {
     constexpr double step = 0.01;
     constexpr double most = 50.0;  // what one motion may say
@@ -52,7 +58,8 @@ class Alignment {
     std::vector<Profile> profiles;
     const auto half = static_cast<Index>(std::lround(first_range / step));
     for (const MotionModel& model : models) {
-      const auto profile = DelayProfile::make(model, joints_, sensor_, smooth_sensor_, start, first_range, margin_);
+      const auto profile = DelayProfile::make(model, joints_, sensor_, smooth_sensor_, start, first_range, margin_,
+                                              model.joint < 0 ? model.regressors.cols() : own_regressors);
       if (!profile) {
         continue;
       }
@@ -71,7 +78,8 @@ class Alignment {
       return start;
     }
     const auto [first, last] = std::minmax_element(profiles.begin(), profiles.end(),
-                                                   [](const Profile& a, const Profile& b) { return a.centre < b.centre; });
+                                                   [](const Profile& a,
+                                                       const Profile& b) { return a.centre < b.centre; });
     const double middle = 0.5 * (first->centre + last->centre);
     const double reach = std::max(0.5 * (last->centre - first->centre), 1.0);
     double least = std::numeric_limits<double>::infinity();
@@ -90,7 +98,8 @@ class Alignment {
             total += most;
           } else {
             const double t = x - static_cast<double>(cell);
-            total += (1.0 - t) * profile.loss[static_cast<std::size_t>(cell)] + t * profile.loss[static_cast<std::size_t>(cell + 1)];
+            total += (1.0 - t) * profile.loss[static_cast<std::size_t>(cell)] + t
+                * profile.loss[static_cast<std::size_t>(cell + 1)];
           }
         }
         if (total < least) {
@@ -103,25 +112,31 @@ class Alignment {
     return best;
   }
 
-  // Delays of all motions under a clock, each within +- range of it.
-  std::vector<Measured> measure(const std::vector<MotionModel>& models, const RelativeClock& clock, double range) const {
+  // Delays of all motions under a clock, each within +- range of it: searched there, or followed from the clock's own.
+  std::vector<Measured> measure(const std::vector<MotionModel>& models, const RelativeClock& clock, double range,
+      bool search) const {
     std::vector<Measured> measured;
     for (const MotionModel& model : models) {
-      const auto profile = DelayProfile::make(model, joints_, sensor_, smooth_sensor_, clock, range, margin_);
+      const auto profile = DelayProfile::make(model, joints_, sensor_, smooth_sensor_, clock, range, margin_,
+          model.regressors.cols());
       if (!profile) {
         continue;
       }
-      const DelayProfile::Estimate estimate = profile->minimise(0.1 * range);
+      const double unseen = encoder_step_ / std::sqrt(12.0) * (standard_gravity + lever * model.squared_frequency);
+      const DelayProfile::Estimate estimate = profile->minimise(search ? 10 : 0, unseen);
+      const double least_std = model.joint < 0 ? least_path_std : 0.0;
       if (estimate.interior && std::isfinite(estimate.std) && estimate.std > 0.0 && estimate.std < largest_std) {
         measured.push_back({&model, estimate,
-                            {estimate.centre - estimate.delay, clock.sensor(estimate.centre), estimate.std * clock.rate, 0.0, 1.0}});
+                            {estimate.centre - estimate.delay, clock.sensor(estimate.centre), std::hypot(least_std,
+                                estimate.std * clock.rate), 0.0, 1.0}});
       }
     }
     return measured;
   }
 
   // Delays from the correlation of activities alone, in windows of joint time.
-  std::vector<ClockPoint> correlation_windows(const Activity& joints, const Activity& sensor, const RelativeClock& clock) const {
+  std::vector<ClockPoint> correlation_windows(const Activity& joints, const Activity& sensor,
+      const RelativeClock& clock) const {
     const double end = std::min(joints_.duration(), clock.joint(sensor_.duration()));
     const double begin = std::max(0.0, clock.joint(0.0));
     const double length = std::clamp((end - begin) / 8.0, 3.0, 15.0);
@@ -141,6 +156,7 @@ class Alignment {
   const UniformStream& joints_;
   const UniformStream& sensor_;
   const ClockAlignmentOptions& options_;
+  double encoder_step_;
   double margin_;
   SamplesX smooth_sensor_;
 };
@@ -151,6 +167,20 @@ std::vector<ClockPoint> points_of(const std::vector<Measured>& measured) {
     points.push_back(m.point);
   }
   return points;
+}
+
+// The largest of the joints' encoder steps: the least change between samples of each joint that moves.
+double encoder_step(const Eigen::Ref<const SamplesX>& positions) {
+  double largest = 0.0;
+  for (Index j = 0; j < positions.cols(); ++j) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Index i = 1; i < positions.rows(); ++i) {
+      const double change = std::abs(positions(i, j) - positions(i - 1, j));
+      least = change > 0.0 ? std::min(least, change) : least;
+    }
+    largest = std::isfinite(least) ? std::max(largest, least) : largest;
+  }
+  return largest;
 }
 
 ClockAlignment absolute(const ClockLine& line, const UniformStream& joints, const UniformStream& sensor) {
@@ -172,9 +202,11 @@ ClockAlignment absolute(const ClockLine& line, const UniformStream& joints, cons
 void describe(ClockAlignment& result, const char* kind, const ClockLine& line) {
   std::ostringstream text;
   text.precision(3);
-  text << "clocks aligned on " << result.tests.size() << " " << kind << "; they scatter by " << 1e3 * line.residual << " ms";
+  text << "clocks aligned on " << result.tests.size() << " " << kind << "; they scatter by " << 1e3 * line.residual <<
+      " ms";
   result.notes.push_back(text.str());
-  const auto outliers = std::count_if(result.tests.begin(), result.tests.end(), [](const DelayTest& t) { return t.weight < 0.1; });
+  const auto outliers = std::count_if(result.tests.begin(), result.tests.end(),
+      [](const DelayTest& t) { return t.weight < 0.1; });
   if (outliers > 0) {
     result.notes.push_back(std::to_string(outliers) + " of them contradict the others and were not used");
   }
@@ -187,14 +219,18 @@ void validate(const Eigen::Ref<const Eigen::VectorXd>& joint_time, const Eigen::
               const Eigen::Ref<const Eigen::VectorXd>& sensor_time, const Eigen::Ref<const Samples3>& specific_force,
               const ClockAlignmentOptions& options) {
   require(joint_positions.cols() > 0, "there are no joint positions");
-  require(joint_positions.rows() == joint_time.size(), "joint positions have " + std::to_string(joint_positions.rows()) +
-                                                           " rows, joint time has " + std::to_string(joint_time.size()));
+  require(joint_positions.rows() == joint_time.size(), "joint positions have "
+      + std::to_string(joint_positions.rows()) +
+                                                           " rows, joint time has "
+                                                               + std::to_string(joint_time.size()));
   require(specific_force.rows() == sensor_time.size(), "specific force has " + std::to_string(specific_force.rows()) +
-                                                           " rows, sensor time has " + std::to_string(sensor_time.size()));
+                                                           " rows, sensor time has "
+                                                               + std::to_string(sensor_time.size()));
   require(joint_positions.allFinite(), "joint positions must be finite: remove or repair rows that are not");
   require(specific_force.allFinite(), "specific force must be finite: remove or repair rows that are not");
   require(options.cutoff > 0.0 && options.max_rate_deviation > 0.0 && options.max_rate_deviation < 0.5,
-          "cutoff must be positive and max_rate_deviation between 0 and 0.5, got " + std::to_string(options.cutoff) + " Hz, " +
+          "cutoff must be positive and max_rate_deviation between 0 and 0.5, got " + std::to_string(options.cutoff)
+              + " Hz, " +
               std::to_string(options.max_rate_deviation));
 }
 
@@ -213,14 +249,16 @@ ClockAlignment align_clocks(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
   if (!(coarse.correlation > least_correlation)) {
     std::ostringstream text;
     text.precision(2);
-    text << "no motion of the joints is recognised in the specific force (correlation " << coarse.correlation << " at best): "
+    text << "no motion of the joints is recognised in the specific force (correlation " << coarse.correlation <<
+        " at best): "
          << what_to_record;
     throw NotIdentifiable(text.str());
   }
-  const Alignment alignment(joints, sensor, options);
+  const Alignment alignment(joints, sensor, encoder_step(joint_positions), options);
 
   for (const bool single : {true, false}) {
-    const std::vector<MotionModel> models = single ? single_joint_stretches(joints, options) : path_stretches(joints, options);
+    const std::vector<MotionModel> models = single ? single_joint_stretches(joints, options) : path_stretches(joints,
+        options);
     if (models.empty()) {
       continue;
     }
@@ -231,7 +269,7 @@ ClockAlignment align_clocks(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
     bool converged = false;
     for (int pass = 0; pass < 12 && !converged; ++pass) {
       constexpr std::array<double, 3> ranges{0.15, 0.08, 0.06};  // s
-      measured = alignment.measure(models, clock, ranges[static_cast<std::size_t>(std::min(pass, 2))]);
+      measured = alignment.measure(models, clock, ranges[static_cast<std::size_t>(std::min(pass, 2))], pass < 2);
       if (measured.empty()) {
         break;
       }
@@ -255,7 +293,8 @@ ClockAlignment align_clocks(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
                               sensor.start + points[i].sensor, points[i].std, points[i].residual, points[i].weight,
                               measured[i].estimate.model_residual});
     }
-    describe(result, single ? "single-joint motions" : "motions of several joints along one path, for want of single-joint ones",
+    describe(result, single ? "single-joint motions"
+        : "motions of several joints along one path, for want of single-joint ones",
              line);
     return result;
   }
@@ -268,7 +307,8 @@ ClockAlignment align_clocks(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
   ClockAlignment result = absolute(line, joints, sensor);
   result.converged = true;
   for (const ClockPoint& p : points) {
-    result.tests.push_back({-1, joints.start + p.joint, joints.start + p.joint, joints.start + p.joint, sensor.start + p.sensor,
+    result.tests.push_back({-1, joints.start + p.joint, joints.start + p.joint, joints.start + p.joint, sensor.start
+        + p.sensor,
                             p.std, p.residual, p.weight, 0.0});
   }
   describe(result, "windows by the correlation of activities, for want of single-joint motions", line);

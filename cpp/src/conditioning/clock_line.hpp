@@ -25,7 +25,8 @@ struct ClockLine {
   bool rate_determined = false;
 };
 
-/// Weighted robust (Tukey) line with the rate's prior 1 +- max_rate_deviation; the points' residuals and weights are filled in.
+/// Weighted robust (Tukey) line with the rate's prior 1 +- max_rate_deviation; the points' residuals and weights are
+/// filled in.
 ClockLine fit_clock_line(std::vector<ClockPoint>& points, double max_rate_deviation);
 
 }  // namespace circlepoint::detail

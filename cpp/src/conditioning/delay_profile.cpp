@@ -39,7 +39,8 @@ double score_variance(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& se
 
 std::optional<DelayProfile> DelayProfile::make(const MotionModel& model, const UniformStream& joints,
                                                const UniformStream& sensor, const SamplesX& smooth_sensor,
-                                               const RelativeClock& clock, double range, double margin) {
+                                               const RelativeClock& clock, double range, double margin,
+                                               Index most_regressors) {
   DelayProfile profile;
   profile.row_period_ = joints.period;
   profile.row_start_ = joints.time(model.rows.begin);
@@ -48,11 +49,12 @@ std::optional<DelayProfile> DelayProfile::make(const MotionModel& model, const U
   const double end = joints.time(model.rows.end - 1) - range - 3.0 * joints.period;
   std::vector<double> instants;
   std::vector<Index> samples;
-  const auto stride = std::max<Index>(1, static_cast<Index>(0.015 / sensor.period));
+  const auto stride = std::max<Index>(1, static_cast<Index>(0.02 / sensor.period));
   for (const IndexRange& span : sensor.spans) {
     for (Index i = span.begin; i < span.end; i += stride) {
       const double u = clock.joint(sensor.time(i));
-      const bool settled = sensor.time(i) > sensor.time(span.begin) + margin && sensor.time(i) < sensor.time(span.end - 1) - margin;
+      const bool settled = sensor.time(i) > sensor.time(span.begin) + margin
+          && sensor.time(i) < sensor.time(span.end - 1) - margin;
       if (u > begin && u < end && settled) {
         instants.push_back(u);
         samples.push_back(i);
@@ -69,7 +71,7 @@ std::optional<DelayProfile> DelayProfile::make(const MotionModel& model, const U
   for (Index i = 0; i < m; ++i) {
     profile.readings_.row(i) = smooth_sensor.row(samples[static_cast<std::size_t>(i)]);
   }
-  profile.regressors_ = model.regressors;
+  profile.regressors_ = model.regressors.leftCols(std::min(most_regressors, model.regressors.cols()));
   for (Index k = 1; k < profile.regressors_.cols(); ++k) {
     auto column = profile.regressors_.col(k);
     column.array() -= column.mean();
@@ -83,7 +85,8 @@ Eigen::MatrixXd DelayProfile::regressors_at(double delay) const {
   Eigen::MatrixXd x(instants_.size(), regressors_.cols());
   const Index rows = regressors_.rows();
   for (Index i = 0; i < instants_.size(); ++i) {
-    const double position = std::clamp((instants_(i) - delay - row_start_) / row_period_, 1.0, static_cast<double>(rows) - 2.001);
+    const double position = std::clamp((instants_(i) - delay - row_start_) / row_period_, 1.0,
+        static_cast<double>(rows) - 2.001);
     const auto k = static_cast<Index>(position);
     const double t = position - static_cast<double>(k);
     const double t2 = t * t, t3 = t2 * t;
@@ -103,11 +106,11 @@ double DelayProfile::effective_samples(double cutoff) const {
   return 3.0 * std::min(2.0 * cutoff * period_, 1.0) * static_cast<double>(instants_.size());
 }
 
-DelayProfile::Estimate DelayProfile::minimise(double step) const {
-  const auto half = static_cast<Index>(std::floor(range_ / step));
+DelayProfile::Estimate DelayProfile::minimise(Index steps, double unseen) const {
+  const double step = range_ / static_cast<double>(std::max<Index>(steps, 10));
   Estimate estimate;
-  double lowest = cost(0.0);
-  for (Index k = -half; k <= half; ++k) {
+  double lowest = steps > 0 ? cost(0.0) : 0.0;
+  for (Index k = -steps; k <= steps && steps > 0; ++k) {
     const double value = cost(static_cast<double>(k) * step);
     if (value < lowest) {
       lowest = value;
@@ -133,7 +136,8 @@ DelayProfile::Estimate DelayProfile::minimise(double step) const {
     estimate.model_residual = std::sqrt(residual.squaredNorm() / static_cast<double>(m));
     const double white = residual.squaredNorm() / static_cast<double>(3 * m) / curvature;
     const double coloured = score_variance(residual, sensitivity) / (curvature * curvature);
-    estimate.std = std::sqrt(std::max(white, coloured) / freedom);
+    const double coherent = static_cast<double>(m) * unseen * unseen / curvature;
+    estimate.std = std::sqrt(std::max(white, coloured) / freedom + coherent);
     estimate.centre = sensitivity.rowwise().squaredNorm().dot(instants_) / curvature;
     estimate.delay += std::clamp(change, -step, step);
     if (std::abs(change) < 1e-9) {

@@ -11,7 +11,9 @@ namespace {
 constexpr double speed_smoothing = 0.05;  // s, of the speeds that tell motion from rest
 constexpr double rest_kept = 0.75;        // s, at most, on both sides of a motion
 constexpr double window = 0.3;            // s, over which the fastest joint sets the threshold for the others
-constexpr double longest = 20.0;          // s, longer stretches are cut where the joint rests
+constexpr double longest = 40.0;          // s, longer stretches are cut where the joint rests
+constexpr double half_smoothing = 0.5;    // of the low-pass, of what is multiplied before it
+constexpr double spare_per_regressor = 4.0;  // independent samples for each regressor of the others' yielding
 constexpr double on_one_path = 0.999;     // of the variance along the path's chord
 
 // Which joint moves at each sample: its index, rest or several.
@@ -26,7 +28,8 @@ std::vector<Index> who_moves(const UniformStream& joints, const ClockAlignmentOp
   for (const IndexRange& span : joints.spans) {
     for (Index i = span.begin; i < span.end; ++i) {
       const Index from = std::max(span.begin, i - half), to = std::min(span.end, i + half + 1);
-      const double threshold = std::max(options.min_velocity, options.others_ratio * fastest.segment(from, to - from).maxCoeff());
+      const double threshold = std::max(options.min_velocity, options.others_ratio * fastest.segment(from,
+          to - from).maxCoeff());
       Index& moving = state[static_cast<std::size_t>(i)];
       for (Index j = 0; j < speed.cols(); ++j) {
         if (speed(i, j) > threshold) {
@@ -45,7 +48,8 @@ Eigen::VectorXd travel(const UniformStream& joints, IndexRange rows) {
 
 // Runs of samples accepted by `same`, joined across rest, cut where they would get too long.
 template <typename Same>
-std::vector<std::pair<Index, IndexRange>> runs(const UniformStream& joints, const std::vector<Index>& state, Same same) {
+std::vector<std::pair<Index, IndexRange>> runs(const UniformStream& joints, const std::vector<Index>& state,
+    Same same) {
   std::vector<std::pair<Index, IndexRange>> found;
   const auto too_long = static_cast<Index>(longest / joints.period);
   const auto long_rest = static_cast<Index>(rest_kept / joints.period);
@@ -77,7 +81,8 @@ IndexRange with_rest(const UniformStream& joints, const std::vector<Index>& stat
                                  [&](const IndexRange& s) { return moving.begin >= s.begin && moving.end <= s.end; });
   const auto most = static_cast<Index>(rest_kept / joints.period);
   IndexRange rows = moving;
-  while (rows.begin > span->begin && moving.begin - rows.begin < most && state[static_cast<std::size_t>(rows.begin - 1)] == rest) {
+  while (rows.begin > span->begin && moving.begin - rows.begin < most
+      && state[static_cast<std::size_t>(rows.begin - 1)] == rest) {
     --rows.begin;
   }
   while (rows.end < span->end && rows.end - moving.end < most && state[static_cast<std::size_t>(rows.end)] == rest) {
@@ -89,16 +94,51 @@ IndexRange with_rest(const UniformStream& joints, const std::vector<Index>& stat
 // Acceleration through the low-pass; squared speed of the half-smoothed position, then through the low-pass.
 void add_dynamics(const UniformStream& joints, const SamplesX& position, double sigma, SamplesX& regressors) {
   regressors.col(regressors.cols() - 2) = smooth(joints, position, sigma, 2);
-  const SamplesX speed = smooth(joints, position, 0.5 * sigma, 1);
+  const SamplesX speed = smooth(joints, position, half_smoothing * sigma, 1);
   regressors.rightCols(1) = smooth(joints, speed.cwiseAbs2(), sigma, 0);
+}
+
+// 1, cos, sin, acceleration and squared speed of the moving joint; then, as far as the stretch is long enough to tell
+// them apart, what the others yield under its load: their positions and accelerations, each times 1, cos and sin.
+SamplesX single_joint_regressors(const UniformStream& joints, IndexRange rows, Index joint, Eigen::VectorXd others,
+                                 double cutoff) {
+  constexpr Index each = 6;
+  const double sigma = gaussian_sigma(cutoff);
+  UniformStream piece;
+  piece.period = joints.period;
+  piece.spans = {{0, rows.size()}};
+  const SamplesX angle = joints.values.block(rows.begin, joint, rows.size(), 1);
+  SamplesX harmonics(rows.size(), 3);
+  harmonics.col(0).setOnes();
+  harmonics.col(1) = angle.array().cos();
+  harmonics.col(2) = angle.array().sin();
+  const double independent = 2.0 * cutoff * joints.period * static_cast<double>(rows.size());
+  const auto affordable = static_cast<Index>(independent / (spare_per_regressor * static_cast<double>(each)));
+  const Index yielding = std::min(affordable, static_cast<Index>((others.array() > 0.0).count()));
+  SamplesX regressors(rows.size(), own_regressors + each * yielding);
+  regressors.leftCols(3) = smooth(piece, harmonics, sigma, 0);
+  SamplesX dynamics(rows.size(), 2);
+  add_dynamics(piece, angle, sigma, dynamics);
+  regressors.middleCols(3, 2) = dynamics;
+  for (Index k = 0; k < yielding; ++k) {
+    Index other = 0;
+    others.maxCoeff(&other);
+    others(other) = 0.0;
+    SamplesX position = joints.values.block(rows.begin, other, rows.size(), 1);
+    position.array() -= position.mean();
+    const SamplesX acceleration = smooth(piece, position, half_smoothing * sigma, 2);
+    SamplesX products(rows.size(), each);
+    products.leftCols(3) = harmonics.array().colwise() * position.col(0).array();
+    products.rightCols(3) = harmonics.array().colwise() * acceleration.col(0).array();
+    regressors.middleCols(own_regressors + each * k, each) = smooth(piece, products, sigma, 0);
+  }
+  return regressors;
 }
 
 }  // namespace
 
 std::vector<MotionModel> single_joint_stretches(const UniformStream& joints, const ClockAlignmentOptions& options) {
   const std::vector<Index> state = who_moves(joints, options);
-  const double sigma = gaussian_sigma(options.cutoff);
-  std::vector<SamplesX> of_joint(static_cast<std::size_t>(joints.values.cols()));
   std::vector<MotionModel> stretches;
   for (const auto& [joint, moving] : runs(joints, state, [](Index a, Index b) { return a == b; })) {
     if (joint == several) {
@@ -107,20 +147,12 @@ std::vector<MotionModel> single_joint_stretches(const UniformStream& joints, con
     const Eigen::VectorXd range = travel(joints, moving);
     Eigen::VectorXd others = range;
     others(joint) = 0.0;
-    if (range(joint) < options.min_travel || others.maxCoeff() > options.others_ratio * range(joint)) {
-      continue;
+    if (range(joint) >= options.min_travel && others.maxCoeff() <= options.others_ratio * range(joint)) {
+      const IndexRange rows = with_rest(joints, state, moving);
+      SamplesX regressors = single_joint_regressors(joints, rows, joint, others, options.cutoff);
+      const double squared_frequency = regressors.col(3).squaredNorm() / std::max(1e-12, regressors.col(4).sum());
+      stretches.push_back({joint, rows, moving, std::move(regressors), squared_frequency});
     }
-    SamplesX& all = of_joint[static_cast<std::size_t>(joint)];
-    if (all.size() == 0) {
-      const SamplesX angle = joints.values.col(joint);
-      all.resize(angle.rows(), 5);
-      all.col(0).setOnes();
-      all.col(1) = smooth(joints, angle.array().cos().matrix(), sigma, 0);
-      all.col(2) = smooth(joints, angle.array().sin().matrix(), sigma, 0);
-      add_dynamics(joints, angle, sigma, all);
-    }
-    const IndexRange rows = with_rest(joints, state, moving);
-    stretches.push_back({joint, rows, moving, all.middleRows(rows.begin, rows.size())});
   }
   return stretches;
 }
@@ -169,7 +201,7 @@ std::vector<MotionModel> path_stretches(const UniformStream& joints, const Clock
       regressors.col(power) = smooth(piece, (along.array() / scale).pow(power).matrix(), sigma, 0);
     }
     add_dynamics(piece, along, sigma, regressors);
-    stretches.push_back({-1, rows, moving, std::move(regressors)});
+    stretches.push_back({-1, rows, moving, std::move(regressors), 0.0});
   }
   return stretches;
 }

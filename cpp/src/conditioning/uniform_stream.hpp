@@ -23,7 +23,8 @@ struct UniformStream {
 UniformStream make_stream(const Eigen::Ref<const Eigen::VectorXd>& time, const Eigen::Ref<const SamplesX>& values,
                           double enough_rate);
 
-/// Values convolved with the derivative of given order (0, 1, 2) of a Gaussian (sigma in s), span by span, mirrored at ends.
+/// Values convolved with the derivative of given order (0, 1, 2) of a Gaussian (sigma in s), span by span, mirrored at
+/// ends.
 SamplesX smooth(const UniformStream& stream, const SamplesX& values, double sigma, int order);
 
 /// Standard deviation (s) of the Gaussian with its -3 dB point at `cutoff` (Hz).

@@ -21,7 +21,8 @@ void require_rows(const char* column, Index rows, Index expected) {
                                 std::to_string(expected) + ": every column needs one value a row");
 }
 
-void require_finite(const std::string& column, const Eigen::Ref<const Eigen::VectorXd, 0, Eigen::InnerStride<>>& values) {
+void require_finite(const std::string& column, const Eigen::Ref<const Eigen::VectorXd, 0,
+    Eigen::InnerStride<>>& values) {
   for (Index i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values(i))) {
       std::ostringstream text;
@@ -150,7 +151,8 @@ void append_report(TimelineReport& report, TimelineReport more, double shift) {
 
 }  // namespace
 
-Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& time, const Eigen::Ref<const SamplesX>& joint_positions,
+Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& time,
+    const Eigen::Ref<const SamplesX>& joint_positions,
                          const SensorSamples& sensor, const TimelineOptions& options) {
   validate_joints(time.size(), joint_positions);
   validate_sensor(time.size(), sensor);
@@ -235,12 +237,13 @@ Recording concatenate(const std::vector<Recording>& recordings) {
   for (std::size_t r = 1; r < recordings.size(); ++r) {
     const std::string name = "recording " + std::to_string(r + 1);
     const Recording& given = recordings[r];
-    require(given.joints() == joined.joints(), name + " has " + std::to_string(given.joints()) + " joints, the first has " +
+    require(given.joints() == joined.joints(), name + " has " + std::to_string(given.joints())
+        + " joints, the first has " +
                                                    std::to_string(joined.joints()));
     const double difference = std::abs(given.sample_rate - joined.sample_rate) / joined.sample_rate;
     require(difference <= rate_tolerance, name + " is sampled at " + std::to_string(given.sample_rate) +
                                               " Hz, the first at " + std::to_string(joined.sample_rate) +
-                                              " Hz: recordings whose rates differ by more than 1 % are calibrated apart");
+                " Hz: recordings whose rates differ by more than 1 % are calibrated apart");
     Recording next = difference <= same_rate ? given : at_rate(given, joined.sample_rate);
     if (difference > same_rate) {
       next.timeline.notes.push_back(name + " was resampled from " + std::to_string(given.sample_rate) + " to " +
@@ -250,7 +253,8 @@ Recording concatenate(const std::vector<Recording>& recordings) {
     const double shift = next.time(0) > end ? 0.0 : end + pause_between_files - next.time(0);
     if (shift != 0.0) {
       std::ostringstream note;
-      note << name << " starts at t = " << next.time(0) << " s, before the end of the one before it: moved by " << shift << " s";
+      note << name << " starts at t = " << next.time(0) << " s, before the end of the one before it: moved by " <<
+          shift << " s";
       next.timeline.notes.push_back(note.str());
       next.time.array() += shift;
     }

@@ -7,25 +7,12 @@
 
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/recording/interpolate.hpp"
+#include "tick_clock.hpp"
 
 namespace circlepoint {
 namespace {
 
-using Stamps = Eigen::Ref<const Eigen::VectorXd>;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// 1.4826 x the median absolute deviation.
-double robust_std(const std::vector<double>& values) {
-  const double centre = median(values);
-  std::vector<double> deviation(values.size());
-  std::transform(values.begin(), values.end(), deviation.begin(), [&](double v) { return std::abs(v - centre); });
-  return 1.4826 * median(std::move(deviation));
-}
+using namespace detail;
 
 // Largest decimal step of which all stamps are multiples; the stamps' own floating-point error is allowed for.
 double find_resolution(const Stamps& time) {
@@ -33,156 +20,12 @@ double find_resolution(const Stamps& time) {
   for (const double step : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 5e-4, 2e-4, 1e-4, 1e-5, 1e-6}) {
     const double tolerance = 1e-4 * step + rounding;
     if (tolerance < 0.1 * step &&
-        std::all_of(time.begin(), time.end(), [&](double t) { return std::abs(std::remainder(t, step)) <= tolerance; })) {
+        std::all_of(time.begin(), time.end(),
+                    [&](double t) { return std::abs(std::remainder(t, step)) <= tolerance; })) {
       return step;
     }
   }
   return 0.0;
-}
-
-// Median over lags long enough to average rounding and bunches out.
-double initial_period(const Stamps& time) {
-  const Index lag = std::clamp<Index>((time.size() - 1) / 2, 1, 64);
-  std::vector<double> steps;
-  for (Index i = lag; i < time.size(); ++i) {
-    steps.push_back((time(i) - time(i - lag)) / static_cast<double>(lag));
-  }
-  return median(std::move(steps));
-}
-
-struct Ticks {
-  std::vector<Index> tick;     // (N)
-  std::vector<Index> surplus;  // rows that have no tick of their own
-};
-
-// Counts clock ticks by following the phase. A bunch of late stamps first jumps ahead and then stands still; going back
-// from its end gives every row a tick of its own. Rows for which that would reach too far back are surplus.
-Ticks count_ticks(const Stamps& time, double period, Index max_filled) {
-  constexpr double gain = 0.05;     // of the phase tracker
-  constexpr Index longest_bunch = 50;
-  constexpr std::size_t most_surplus = 100;  // enough to say that the log is wrong
-  const Index n = time.size();
-  Ticks ticks{std::vector<Index>(static_cast<std::size_t>(n), 0), {}};
-  auto tick = [&](Index i) -> Index& { return ticks.tick[static_cast<std::size_t>(i)]; };
-  double phase = time(0);
-  for (Index i = 1; i < n; ++i) {
-    const double step = std::round((time(i) - phase) / period);
-    const bool pause = time(i) - time(i - 1) > (static_cast<double>(max_filled) + 1.5) * period;
-    const bool bunched = i + 1 < n && time(i + 1) - time(i) < 0.5 * period;
-    tick(i) = tick(i - 1) + std::max<Index>(0, static_cast<Index>(step));
-    phase += period * std::max(0.0, step);
-    phase = pause && !bunched ? time(i) : phase + gain * std::clamp(time(i) - phase, -0.5 * period, 0.5 * period);
-  }
-  for (Index i = n - 2; i >= 0; --i) {
-    if (tick(i) < tick(i + 1)) {
-      continue;
-    }
-    Index first = i;
-    Index target = tick(i + 1) - 1;
-    while (first >= 0 && tick(first) > target) {
-      --first;
-      --target;
-    }
-    if (i - first > (first < 0 ? 8 : longest_bunch)) {
-      ticks.surplus.push_back(i + 1);
-      if (ticks.surplus.size() == most_surplus) {
-        break;
-      }
-      const Index shift = 1 + tick(i) - tick(i + 1);
-      for (Index k = i + 1; k < n; ++k) {
-        tick(k) += shift;
-      }
-    } else {
-      for (Index k = first + 1; k <= i; ++k) {
-        tick(k) = tick(i + 1) - (i + 1 - k);
-      }
-    }
-  }
-  std::reverse(ticks.surplus.begin(), ticks.surplus.end());
-  return ticks;
-}
-
-std::vector<IndexRange> split_at(const std::vector<Index>& starts, Index n) {
-  std::vector<IndexRange> ranges;
-  Index begin = 0;
-  for (const Index start : starts) {
-    ranges.push_back({begin, start});
-    begin = start;
-  }
-  ranges.push_back({begin, n});
-  return ranges;
-}
-
-struct Clock {
-  double period = 0.0;
-  std::vector<Index> tick;
-  std::vector<Index> surplus;
-  std::vector<IndexRange> rows;   // of each span
-  std::vector<double> offset;     // of each span: time at tick 0
-  std::vector<double> residual;   // (N)
-  double scatter = 0.0;           // robust standard deviation of the residual
-};
-
-// One period for all spans, an offset each, by least squares without the late stamps.
-Clock fit_clock(const Stamps& time, Index max_filled) {
-  const Index n = time.size();
-  Clock clock;
-  clock.period = initial_period(time);
-  require(clock.period > 0.0, "time does not advance: the median step between samples is not positive");
-  std::vector<char> used(static_cast<std::size_t>(n), 1);
-  for (int pass = 0; pass < 4; ++pass) {
-    Ticks ticks = count_ticks(time, clock.period, max_filled);
-    clock.tick = std::move(ticks.tick);
-    clock.surplus = std::move(ticks.surplus);
-    std::vector<Index> starts;
-    for (Index i = 1; i < n; ++i) {
-      if (clock.tick[static_cast<std::size_t>(i)] - clock.tick[static_cast<std::size_t>(i - 1)] > max_filled + 1) {
-        starts.push_back(i);
-      }
-    }
-    clock.rows = split_at(starts, n);
-    for (int trim = 0; trim < 3; ++trim) {
-      double covariance = 0.0, variance = 0.0;
-      std::vector<std::pair<double, double>> means;
-      for (const IndexRange& rows : clock.rows) {
-        double count = 0.0, mean_tick = 0.0, mean_time = 0.0;
-        const bool any = std::any_of(used.begin() + rows.begin, used.begin() + rows.end, [](char u) { return u != 0; });
-        const auto counts = [&](Index i) { return !any || used[static_cast<std::size_t>(i)] != 0; };
-        for (Index i = rows.begin; i < rows.end; ++i) {
-          if (counts(i)) {
-            count += 1.0;
-            mean_tick += (static_cast<double>(clock.tick[static_cast<std::size_t>(i)]) - mean_tick) / count;
-            mean_time += (time(i) - mean_time) / count;
-          }
-        }
-        for (Index i = rows.begin; i < rows.end; ++i) {
-          if (counts(i)) {
-            const double k = static_cast<double>(clock.tick[static_cast<std::size_t>(i)]) - mean_tick;
-            covariance += k * (time(i) - mean_time);
-            variance += k * k;
-          }
-        }
-        means.emplace_back(mean_tick, mean_time);
-      }
-      if (variance > 0.0) {
-        clock.period = covariance / variance;
-      }
-      clock.offset.clear();
-      clock.residual.assign(static_cast<std::size_t>(n), 0.0);
-      for (std::size_t s = 0; s < clock.rows.size(); ++s) {
-        clock.offset.push_back(means[s].second - clock.period * means[s].first);
-        for (Index i = clock.rows[s].begin; i < clock.rows[s].end; ++i) {
-          const double k = static_cast<double>(clock.tick[static_cast<std::size_t>(i)]) - means[s].first;
-          clock.residual[static_cast<std::size_t>(i)] = (time(i) - means[s].second) - clock.period * k;
-        }
-      }
-      clock.scatter = robust_std(clock.residual);
-      const double limit = std::max(4.0 * clock.scatter, 1e-6 * clock.period);
-      std::transform(clock.residual.begin(), clock.residual.end(), used.begin(),
-                     [&](double e) { return static_cast<char>(std::abs(e) <= limit); });
-    }
-  }
-  return clock;
 }
 
 // A rate that is a round number but for floating-point error is that number.
@@ -204,21 +47,25 @@ void describe(TimelineReport& report) {
     say("the sample rate is ", report.sample_rate, " Hz, above the 10 kHz this method expects");
   }
   if (report.rule == StampRule::believed) {
-    say("stamps jitter by ", 1e3 * report.jitter_std, " ms (standard deviation): samples were interpolated at a uniform ",
+    say("stamps jitter by ", 1e3 * report.jitter_std,
+        " ms (standard deviation): samples were interpolated at a uniform ",
         report.sample_rate, " Hz");
   } else if (report.jitter_std > 1e-3 / report.sample_rate) {
-    say("stamps are rounded to ", 1e3 * report.resolution, " ms: replaced by a uniform clock at ", report.sample_rate, " Hz");
+    say("stamps are rounded to ", 1e3 * report.resolution, " ms: replaced by a uniform clock at ", report.sample_rate,
+        " Hz");
   }
   if (report.late > 0) {
     say(report.late, " late stamps (by up to ", 1e3 * report.jitter_max, " ms) moved to their place on the clock");
   }
   if (report.filled > 0) {
-    say(report.filled, " missing samples in ", std::count_if(report.gaps.begin(), report.gaps.end(), [](const auto& g) { return g.filled; }),
+    say(report.filled, " missing samples in ", std::count_if(report.gaps.begin(), report.gaps.end(),
+        [](const auto& g) { return g.filled; }),
         " short gaps were interpolated");
   }
   for (const TimelineGap& gap : report.gaps) {
     if (!gap.filled) {
-      say("a gap of ", gap.length, " s after t = ", gap.start, " s (", gap.missing, " samples missing): a new span starts");
+      say("a gap of ", gap.length, " s after t = ", gap.start, " s (", gap.missing,
+          " samples missing): a new span starts");
     }
   }
 }
@@ -276,20 +123,23 @@ void lay_free(const Stamps& time, Timeline& timeline, std::vector<double>& grid)
   }
 }
 
-Timeline build(const Stamps& time, const TimelineOptions& options) {
-  require(time.size() >= 8, "a recording needs at least 8 samples, got " + std::to_string(time.size()));
-  for (Index i = 0; i < time.size(); ++i) {
-    require(std::isfinite(time(i)), "time in row " + std::to_string(i + 1) + " is not finite: remove or repair the row");
+Timeline build(const Stamps& stamps, const TimelineOptions& options) {
+  require(stamps.size() >= 8, "a recording needs at least 8 samples, got " + std::to_string(stamps.size()));
+  for (Index i = 0; i < stamps.size(); ++i) {
+    require(std::isfinite(stamps(i)), "time in row " + std::to_string(i + 1)
+        + " is not finite: remove or repair the row");
   }
   Timeline timeline;
   TimelineReport& report = timeline.report;
+  const double epoch = stamps(0);
+  const Eigen::VectorXd time = stamps.array() - epoch;  // small numbers: sums over them keep their digits
   report.samples = time.size();
   report.duration = time(time.size() - 1) - time(0);
-  find_disorder(time, report);
+  find_disorder(stamps, report);
   if (!report.backwards.empty()) {
     return timeline;
   }
-  report.resolution = find_resolution(time);
+  report.resolution = find_resolution(stamps);
   const Clock clock = fit_clock(time, options.max_filled);
   report.sample_rate = tidy_rate(1.0 / clock.period);
   const bool countable = clock.scatter < 0.25 * clock.period;
@@ -307,12 +157,12 @@ Timeline build(const Stamps& time, const TimelineOptions& options) {
   if (countable) {
     timeline.rows = clock.rows;
     for (const Index row : clock.surplus) {
-      report.surplus.push_back({row, time(row - 1), time(row)});
+      report.surplus.push_back({row, stamps(row - 1), stamps(row)});
     }
     for (Index i = 1; i < time.size(); ++i) {
       const Index missing = clock.tick[static_cast<std::size_t>(i)] - clock.tick[static_cast<std::size_t>(i - 1)] - 1;
       if (missing > 0) {
-        add_gap(report, time, i, missing, missing <= options.max_filled);
+        add_gap(report, stamps, i, missing, missing <= options.max_filled);
       }
     }
     lay_ticks(clock, timeline, grid);
@@ -330,7 +180,7 @@ Timeline build(const Stamps& time, const TimelineOptions& options) {
       const double step = steps[static_cast<std::size_t>(i - 1)];
       if (step > options.gap_threshold * period + 3.0 * scatter) {
         const bool split = step > (static_cast<double>(options.max_filled) + 1.5) * period + 3.0 * scatter;
-        add_gap(report, time, i, std::max<Index>(1, static_cast<Index>(std::round(step / period)) - 1), !split);
+        add_gap(report, stamps, i, std::max<Index>(1, static_cast<Index>(std::round(step / period)) - 1), !split);
         if (split) {
           starts.push_back(i);
         }
@@ -339,7 +189,8 @@ Timeline build(const Stamps& time, const TimelineOptions& options) {
     timeline.rows = split_at(starts, time.size());
     lay_free(time, timeline, grid);
   }
-  timeline.time = Eigen::Map<const Eigen::VectorXd>(grid.data(), static_cast<Index>(grid.size()));
+  timeline.time = Eigen::Map<const Eigen::VectorXd>(grid.data(), static_cast<Index>(grid.size())).array() + epoch;
+  timeline.row_time.array() += epoch;
   describe(report);
   return timeline;
 }
@@ -347,7 +198,8 @@ Timeline build(const Stamps& time, const TimelineOptions& options) {
 std::string order_message(const char* what, const StampOrder& order, const char* remedy) {
   std::ostringstream text;
   text.precision(12);
-  text << what << " in row " << order.index + 1 << ": t = " << order.value << " s after " << order.previous << " s; " << remedy;
+  text << what << " in row " << order.index + 1 << ": t = " << order.value << " s after " << order.previous <<
+      " s; " << remedy;
   return text.str();
 }
 
@@ -372,7 +224,8 @@ Timeline make_timeline(const Eigen::Ref<const Eigen::VectorXd>& time, const Time
 }
 
 SamplesX regularise(const Timeline& timeline, const Eigen::Ref<const SamplesX>& values) {
-  require(values.rows() == timeline.row_time.size(), "values have " + std::to_string(values.rows()) + " rows, the timeline " +
+  require(values.rows() == timeline.row_time.size(), "values have " + std::to_string(values.rows())
+      + " rows, the timeline " +
                                                          std::to_string(timeline.row_time.size()));
   SamplesX regular(timeline.time.size(), values.cols());
   for (std::size_t s = 0; s < timeline.spans.size(); ++s) {
@@ -381,7 +234,8 @@ SamplesX regularise(const Timeline& timeline, const Eigen::Ref<const SamplesX>& 
     const bool complete = span.size() == rows.size() && timeline.row_sample[static_cast<std::size_t>(rows.begin)] >= 0;
     if (!complete) {
       regular.middleRows(span.begin, span.size()) =
-          interpolate_cubic(timeline.row_time.segment(rows.begin, rows.size()), values.middleRows(rows.begin, rows.size()),
+          interpolate_cubic(timeline.row_time.segment(rows.begin, rows.size()),
+                            values.middleRows(rows.begin, rows.size()),
                             timeline.time.segment(span.begin, span.size()));
     }
     for (Index i = rows.begin; i < rows.end; ++i) {

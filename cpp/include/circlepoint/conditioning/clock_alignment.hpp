@@ -3,19 +3,21 @@
 //
 // No kinematic model is used. Where one joint moves alone by theta, an accelerometer anywhere on the arm reads
 //   y = A + B cos(theta) + C sin(theta) + E alpha + F w^2
-// with five constant 3-vectors, so that given the delay everything else is linear: the residual is profiled over the delay
-// and its minimum gives the delay of that motion. Both sides go through the same zero-phase low-pass. The standard
-// deviation is the score's, sqrt(sum_k gamma(k) c(k)) / H, with gamma the residual's autocovariance, c the sensitivity's
-// autocorrelation sum and H the curvature: residuals of a rigid model are not white. Delays of several motions give offset
-// and rate by a robust weighted line; scatter about the line beyond the delays' own standard deviations is added to each.
-// The search starts from the correlation of the joints' speed with the specific force's rate of change, over all offsets
-// and all rates within `max_rate_deviation`; epochs do not matter.
-// Where no joint moves alone but several move along one path q(s), the same holds with a polynomial in s in place of the
-// harmonics, approximately; failing that, the correlation is refined in each window. Both are poorer, their standard
-// deviations come from the scatter between windows (and are not taken below 10 ms where a window is all there is), and the
-// result says so (`single_joint` false).
-// Failure: no motion, or none the sensor notices -> NotIdentifiable. One short motion alone leaves the rate to the range
-// searched: `rate_determined` is false and rate_std says the same.
+// with five constant 3-vectors, so that given the delay everything else is linear: the residual is profiled over the
+// delay and its minimum gives the delay of that motion. Both sides go through the same zero-phase low-pass. The
+// standard deviation is the score's, sqrt(sum_k gamma(k) c(k)) / H, with gamma the residual's autocovariance, c the
+// sensitivity's autocorrelation sum and H the curvature: residuals of a rigid model are not white. Delays of several
+// motions give offset and rate by a robust weighted line; scatter about the line beyond the delays' own standard
+// deviations is added to each. The search starts from the correlation of the joints' speed with the specific force's
+// rate of change, over all offsets and all rates within `max_rate_deviation`; epochs do not matter.
+// Joints that should rest yield under the moving one's load, in phase with it: as far as the encoders show it, their
+// positions and accelerations are regressors too; what an encoder step of yielding would do is added to the standard
+// deviation for what they do not show.
+// Where no joint moves alone but several move along one path q(s), the same holds with a polynomial in s in place of
+// the harmonics, approximately; failing that, the correlation is refined in each window. Both are poorer (a delay is
+// not taken for better known than 5 and 10 ms), and the result says so (`single_joint` false).
+// Failure: no motion, or none the sensor notices -> NotIdentifiable. One short motion alone leaves the rate to the
+// range searched: `rate_determined` is false and rate_std says the same.
 
 #include <Eigen/Core>
 #include <string>
@@ -43,7 +45,7 @@ struct ClockAlignmentOptions {
   double cutoff = 5.0;               ///< Hz, -3 dB of the low-pass both sides go through
   double min_velocity = 0.02;        ///< rad/s or m/s: slower is at rest
   double min_travel = 0.05;          ///< rad or m: shorter motions are ignored
-  double others_ratio = 0.05;        ///< others may move at this fraction of the moving joint's speed and travel
+  double others_ratio = 0.1;         ///< others may move at this fraction of the moving joint's speed and travel
 };
 
 struct ClockAlignment {
@@ -64,11 +66,12 @@ struct ClockAlignment {
   [[nodiscard]] ClockModel clock() const { return {offset, rate}; }
 };
 
-/// Offset and rate between the clock of joint positions (N, n; rad or m) and that of specific force (M, 3; m/s^2). Raises
-/// InvalidInput for data that cannot be used and NotIdentifiable where no motion shows the delay.
+/// Offset and rate between the clock of joint positions (N, n; rad or m) and that of specific force (M, 3; m/s^2).
+/// Raises InvalidInput for data that cannot be used and NotIdentifiable where no motion shows the delay.
 ClockAlignment align_clocks(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
                             const Eigen::Ref<const SamplesX>& joint_positions,
                             const Eigen::Ref<const Eigen::VectorXd>& sensor_time,
-                            const Eigen::Ref<const Samples3>& specific_force, const ClockAlignmentOptions& options = {});
+                            const Eigen::Ref<const Samples3>& specific_force, const ClockAlignmentOptions& options =
+                                {});
 
 }  // namespace circlepoint

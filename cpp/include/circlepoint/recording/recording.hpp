@@ -46,7 +46,8 @@ struct SensorSamples {
 
 /// A recording from one log: time (N) s, joint_positions (N, n). Raises InvalidInput for sizes that differ, fewer than
 /// 8 rows, values that are not finite (row, column, value) and time that does not advance (row, both values).
-Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& time, const Eigen::Ref<const SamplesX>& joint_positions,
+Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& time,
+    const Eigen::Ref<const SamplesX>& joint_positions,
                          const SensorSamples& sensor, const TimelineOptions& options = {});
 
 /// A recording from two logs with two clocks. Sensor samples without joint positions around them are left out. Raises
@@ -56,9 +57,10 @@ Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
                          const Eigen::Ref<const Eigen::VectorXd>& sensor_time, const SensorSamples& sensor,
                          const ClockModel& clock, const TimelineOptions& options = {});
 
-/// Several recordings of the same arm as one: each starts a new span. A recording that does not start after the one before
-/// it is moved to one second after its end, and the timeline's notes say so. Sample rates within 1 % are brought to the
-/// first one's; a gyroscope or temperature is kept where all have it. Raises InvalidInput for other rates or joints.
+/// Several recordings of the same arm as one: each starts a new span. A recording that does not start after the one
+/// before it is moved to one second after its end, and the timeline's notes say so. Sample rates within 1 % are
+/// brought to the first one's; a gyroscope or temperature is kept where all have it. Raises InvalidInput for other
+/// rates or joints.
 Recording concatenate(const std::vector<Recording>& recordings);
 
 }  // namespace circlepoint

@@ -3,15 +3,15 @@
 //
 // Assumption: the source samples at one constant rate, t_i = o + T k_i + e_i with whole ticks k_i. What a logger writes
 // differs from that in four ways, and each is treated by what it is:
-//  - rounding: stamps in whole milliseconds of a 266 Hz sensor step 4, 4, 3 ms. The error e_i is explained by the stamps'
-//    resolution, the samples are as regular as the fitted clock says: they are kept and get its times.
-//  - late stamps: a few samples are stamped on arrival, late and in a bunch, and the stamps then catch up. The phase after
-//    the bunch is the phase before it, so nothing is missing; the samples get their ticks' times.
-//  - jitter: the samples really were taken off the grid. The stamps are believed and the samples are interpolated (cubic
-//    spline) at the grid's times.
-//  - gaps: the phase jumps by whole periods and stays. Up to `max_filled` missing samples are interpolated, more split the
-//    recording into spans. The ticks are counted by tracking the phase, so a dropped sample shows even where rounding is
-//    as large as half a period.
+//  - rounding: stamps in whole milliseconds of a 266 Hz sensor step 4, 4, 3 ms. The error e_i is explained by the
+//    stamps' resolution, the samples are as regular as the fitted clock says: they are kept and get its times.
+//  - late stamps: a few samples are stamped on arrival, late and in a bunch, and the stamps then catch up. The phase
+//    after the bunch is the phase before it, so nothing is missing; the samples get their ticks' times.
+//  - jitter: the samples really were taken off the grid. The stamps are believed and the samples are interpolated
+//    (cubic spline) at the grid's times.
+//  - gaps: the phase jumps by whole periods and stays. Up to `max_filled` missing samples are interpolated, more split
+//    the recording into spans. The ticks are counted by tracking the phase, so a dropped sample shows even where
+//    rounding is as large as half a period.
 // Stamps with jitter above a quarter period cannot be counted in ticks: they are believed, and a gap is a step above
 // `gap_threshold` periods plus three standard deviations of the jitter.
 // Failure: time that runs backwards, or repeated stamps that no late bunch explains (a row written twice).
