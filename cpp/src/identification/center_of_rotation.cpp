@@ -41,7 +41,7 @@ PlaneTest prepare(const Eigen::Ref<const Eigen::VectorXd>& angle, const Eigen::R
   test.dynamic = f - gravity.evaluate(angle);
   // Smoothed well above the band that is kept: differentiating counts would bury the rate.
   const double smooth = std::min(3.0 * options.cutoff, 0.4 * sample_rate);
-  test.rate = gradient(sosfiltfilt(butter(options.filter_order, smooth, sample_rate), angle), test.dt).col(0);
+  test.rate = savgol_filter(sosfiltfilt(butter(options.filter_order, smooth, sample_rate), angle), 7, 6, 1, test.dt).col(0);
   if (!(test.rate.cwiseAbs().maxCoeff() * static_cast<double>(angle.size()) * test.dt > 0.05)) {
     throw NotIdentifiable("the joint turns by " + std::to_string(angle.maxCoeff() - angle.minCoeff()) +
                           " rad only; a centre of rotation needs a faster or wider motion");

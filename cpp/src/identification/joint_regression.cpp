@@ -176,8 +176,8 @@ JointModelFit solve_from(const Whitened& whitened, const JointModelPrior& prior,
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 200;
-  options.function_tolerance = 1e-16;
-  options.parameter_tolerance = 1e-14;
+  options.function_tolerance = 1e-13;
+  options.parameter_tolerance = 1e-13;
   options.gradient_tolerance = 1e-14;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
