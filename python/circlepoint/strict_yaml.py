@@ -56,6 +56,7 @@ class Fields:
         self, key: str, *, default: float | None = None, at_least: float = -math.inf, above: float = -math.inf
     ) -> float:
         """Return a finite number within its bounds."""
+        self._asked.add(key)
         if default is not None and not self.has(key):
             return default
         remedy = "give a finite number"
@@ -81,6 +82,7 @@ class Fields:
 
     def integer(self, key: str, *, default: int | None = None, at_least: int) -> int:
         """Return a whole number of at least a bound."""
+        self._asked.add(key)
         if default is not None and not self.has(key):
             return default
         remedy = f"give a whole number of at least {at_least}"
@@ -91,6 +93,7 @@ class Fields:
 
     def text(self, key: str, remedy: str, *, default: str | None = None) -> str:
         """Return a text that is not empty."""
+        self._asked.add(key)
         if default is not None and not self.has(key):
             return default
         value = self.value(key, remedy)

@@ -38,7 +38,7 @@ struct Dwell {
 /// All joints move to `target` together by the minimum-jerk quintic, rest to rest:
 /// s(x) = 10 x^3 - 15 x^4 + 6 x^5 with x = t / duration.
 struct PointToPointMove {
-  Eigen::VectorXd target;  ///< (n) rad or m
+  Eigen::VectorXd target{};  ///< (n) rad or m
   double duration = 1.0;   ///< s
 };
 
@@ -64,7 +64,7 @@ struct RaisedCosine {
 /// faded in and out by a minimum-jerk ramp, around where the joints are; it ends where it began.
 struct MultiJointMotion {
   double duration = 60.0;       ///< s
-  Eigen::VectorXd amplitude;    ///< (n) rad or m: a joint never leaves +-amplitude
+  Eigen::VectorXd amplitude{};   ///< (n) rad or m: a joint never leaves +-amplitude
   double frequency_min = 0.1;   ///< Hz
   double frequency_max = 0.5;   ///< Hz
   Index harmonics = 3;          ///< sinusoids a joint

@@ -12,7 +12,7 @@
 // joint gives way to the weight of a unit mass at the sensor, as a position loop without integral action does
 // (milliradians). Encoders see theta. Its derivatives follow the trajectory's own: theta is evaluated along
 // q + q_dot h + q_ddot h^2 / 2 at h = 0 and +-1 ms and differenced, which is exact up to h^2 / 12 times its fourth
-// derivative (1e-6 rad/s^2 for milliradians at 1 Hz), has no edges and does not mix samples across a step of the
+// derivative (1e-7 rad/s^2 for milliradians at 1 Hz), has no edges and does not mix samples across a step of the
 // acceleration.
 //
 // Vibration is what the paper's section 4 adds: sinusoids of random frequency and phase along the sensor's direction of
@@ -46,10 +46,10 @@ struct VibrationOptions {
 struct SimulationOptions {
   double noise_std = 0.0;      ///< m/s^2, white, per sample
   double range = 0.0;          ///< m/s^2, readings clip at +-range; 0: no clipping
-  Eigen::VectorXd encoder_counts_per_revolution;  ///< (n), 0: exact; empty: all exact; prismatic are always exact
+  Eigen::VectorXd encoder_counts_per_revolution{};  ///< (n), 0: exact; empty: all exact; prismatic are always exact
   Eigen::Vector3d bias_drift = Eigen::Vector3d::Zero();  ///< m/s^2, reached linearly from 0 over the recording
-  Eigen::VectorXd compliance;       ///< (n) rad per m^2/s^2 (prismatic: m per m/s^2); empty: rigid
-  VibrationOptions vibration;
+  Eigen::VectorXd compliance{};  ///< (n) rad per m^2/s^2 (prismatic: m per m/s^2); empty: rigid
+  VibrationOptions vibration{};
   std::uint64_t seed = 0;
 };
 
