@@ -261,7 +261,7 @@ docs/method, section 3.
       .def_readonly("lever", &JointModel::lever, "(3,) m, from the axis to the sensor")
       .def_readonly("gravity", &JointModel::gravity, "(3,) m/s^2, up-gravity orthogonal to the axis at angle zero")
       .def_readonly("constant", &JointModel::constant, "(3,) m/s^2, up-gravity along the axis plus bias")
-      .def_readonly("percussion_distance", &JointModel::percussion_distance, "m")
+      .def_readonly("percussion_distance", &JointModel::percussion_distance, "(3,) m, of each channel")
       .def("coefficients", &JointModel::coefficients, "(5, 3) rows A, B, C, E, F of the regression.")
       .def("line", &JointModel::line, "The axis as a Line in the sensor frame.");
   py::class_<JointModelPrior>(m, "JointModelPrior", "What is known of a joint's readings beforehand.")
@@ -273,8 +273,8 @@ docs/method, section 3.
       .def_readwrite("percussion_distance_std", &JointModelPrior::percussion_distance_std, "m; 0 fixes it");
   py::class_<JointModelFit>(m, "JointModelFit", "A joint model and its information.")
       .def_readonly("model", &JointModelFit::model)
-      .def_readonly("information", &JointModelFit::information, "(10, 10) data and prior")
-      .def_readonly("data_information", &JointModelFit::data_information, "(10, 10) data alone")
+      .def_readonly("information", &JointModelFit::information, "(12, 12) data and prior")
+      .def_readonly("data_information", &JointModelFit::data_information, "(12, 12) data alone")
       .def_readonly("iterations", &JointModelFit::iterations)
       .def_readonly("converged", &JointModelFit::converged);
   m.def("fit_joint_model", &fit_joint_model, py::arg("weighted"), py::arg("prior") = JointModelPrior{}, release_gil(), R"(
@@ -290,7 +290,7 @@ Returns
 -------
 JointModelFit
     Parameters of the information: direction (2), gravity (2), lever (2) in tangent_basis(axis), constant (3),
-    percussion distance.
+    percussion distances (3).
 
 Raises
 ------
@@ -303,13 +303,13 @@ docs/method, section 3.
 )");
   py::class_<SensorFromGravity>(m, "SensorFromGravity", "Static sensor errors from the magnitude of gravity.")
       .def_readonly("sensor", &SensorFromGravity::sensor)
-      .def_readonly("covariance", &SensorFromGravity::covariance, "(9, 9) of bias, scale, misalignment")
+      .def_readonly("covariance", &SensorFromGravity::covariance, "(12, 12) of bias, scale, misalignment, second order")
       .def_readonly("prior_factor", &SensorFromGravity::prior_factor)
       .def_readonly("noise_std", &SensorFromGravity::noise_std, "m/s^2")
       .def_readonly("residual_rms", &SensorFromGravity::residual_rms, "m/s^2");
   m.def("fit_sensor_from_gravity", &fit_sensor_from_gravity, py::arg("dwell_specific_force").noconvert(),
         py::arg("specification"), py::arg("gravity") = standard_gravity, py::arg("adapt_prior") = false, release_gil(), R"(
-Bias, scale and misalignment from |f| = g at rest, with a prior.
+Bias, scale, misalignment and second-order error from |f| = g at rest, with a prior.
 
 Parameters
 ----------
@@ -358,7 +358,7 @@ void bind_arm(py::module_& m) {
       .def_readonly("configuration", &TestFit::configuration, "(n,) rad or m")
       .def_readonly("model", &TestFit::model)
       .def_readonly("noise_covariance", &TestFit::noise_covariance, "(4, 4) of the line's local coordinates")
-      .def_readonly("percussion_distance_std", &TestFit::percussion_distance_std, "m")
+      .def_readonly("percussion_distance_std", &TestFit::percussion_distance_std, "(3,) m")
       .def_readonly("cutoff", &TestFit::cutoff, "Hz")
       .def_readonly("dwell_noise_std", &TestFit::dwell_noise_std, "m/s^2, of a dwell's mean by its own samples")
       .def_readonly("static_noise_std", &TestFit::static_noise_std, "m/s^2")
@@ -389,8 +389,8 @@ void bind_arm(py::module_& m) {
       .def_readonly("covariance", &JointCalibration::covariance, "(4n, 4n) of the lines' local coordinates")
       .def_readonly("up_gravity_sensor", &JointCalibration::up_gravity_sensor, "(3,) m/s^2")
       .def_readonly("sensor", &JointCalibration::sensor)
-      .def_readonly("percussion_distance", &JointCalibration::percussion_distance, "m")
-      .def_readonly("percussion_distance_std", &JointCalibration::percussion_distance_std, "m")
+      .def_readonly("percussion_distance", &JointCalibration::percussion_distance, "(3,) m, of each channel")
+      .def_readonly("percussion_distance_std", &JointCalibration::percussion_distance_std, "(3,) m")
       .def_readonly("fits", &JointCalibration::fits)
       .def_readonly("unseen", &JointCalibration::unseen)
       .def_readonly("passes", &JointCalibration::passes)

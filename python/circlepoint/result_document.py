@@ -134,16 +134,27 @@ def _condition(value: float) -> float | None:
 
 def _sensor_entry(method: str, joints: circlepoint.JointCalibration) -> Document:
     entry: Document = dict.fromkeys(
-        ("bias", "scale", "misalignment", "percussion_distance", "clock_offset", "clock_rate")
+        ("bias", "scale", "misalignment", "second_order", "percussion_distance", "clock_offset", "clock_rate")
     )
     if method == "joint":
         std = np.sqrt(np.diag(joints.sensor.covariance))
         sensor = joints.sensor.sensor
         entry["bias"] = estimate_entry(sensor.bias, std[:3])
         entry["scale"] = estimate_entry(sensor.scale, std[3:6])
-        entry["misalignment"] = estimate_entry(sensor.misalignment, std[6:])
-        entry["percussion_distance"] = estimate_entry(joints.percussion_distance, joints.percussion_distance_std)
+        entry["misalignment"] = estimate_entry(sensor.misalignment, std[6:9])
+        entry["second_order"] = estimate_entry(sensor.second_order, std[9:])
+        entry["percussion_distance"] = _percussion_entry(joints)
     return entry
+
+
+def _percussion_entry(joints: circlepoint.JointCalibration) -> Document:
+    """Return the channels' common distance, weighted by their information, and each channel's own."""
+    weight = joints.percussion_distance_std**-2.0
+    return {
+        "estimate": float(np.sum(weight * joints.percussion_distance) / np.sum(weight)),
+        "std": float(np.sum(weight) ** -0.5),
+        "channels": estimate_entry(joints.percussion_distance, joints.percussion_distance_std),
+    }
 
 
 def _dh_entry(

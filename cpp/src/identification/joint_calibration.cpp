@@ -193,18 +193,23 @@ Eigen::Vector3d mean_up_gravity(const PartialChain& chain, const Segmentation& s
   return weight > 0.0 ? Eigen::Vector3d(sum / weight) : Eigen::Vector3d::Zero();
 }
 
-void combine_percussion(const std::vector<JointWork>& work, const JointCalibrationOptions& options, double& distance, double& std) {
-  double weight = 0.0;
-  double sum = 0.0;
+void combine_percussion(const std::vector<JointWork>& work, const JointCalibrationOptions& options, JointCalibration& result) {
+  Eigen::Array3d weight = Eigen::Array3d::Zero();
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
   for (const JointWork& mine : work) {
-    if (mine.fitted && mine.fitted->fit.percussion_distance_std > 0.0) {
-      const double w = 1.0 / (mine.fitted->fit.percussion_distance_std * mine.fitted->fit.percussion_distance_std);
+    if (mine.fitted && mine.fitted->fit.percussion_distance_std.minCoeff() > 0.0) {
+      const Eigen::Array3d w = mine.fitted->fit.percussion_distance_std.array().square().inverse();
       weight += w;
-      sum += w * mine.fitted->fit.model.percussion_distance;
+      sum += w * mine.fitted->fit.model.percussion_distance.array();
     }
   }
-  distance = weight > 0.0 ? sum / weight : options.sensor.percussion_distance;
-  std = weight > 0.0 ? 1.0 / std::sqrt(weight) : options.sensor.percussion_distance_std;
+  if (weight.minCoeff() > 0.0) {
+    result.percussion_distance = sum / weight;
+    result.percussion_distance_std = weight.rsqrt();
+  } else {
+    result.percussion_distance.setConstant(options.sensor.percussion_distance);
+    result.percussion_distance_std.setConstant(options.sensor.percussion_distance_std);
+  }
 }
 
 // Rotating line i about line j by one radian, in line i's local coordinates.
@@ -241,7 +246,7 @@ Eigen::MatrixXd covariance_at_reference(const std::vector<JointWork>& work, cons
                                         const Eigen::VectorXd& resolution) {
   const auto joints = static_cast<Index>(work.size());
   Eigen::MatrixXd at_tests = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
-  Eigen::MatrixXd by_sensor = Eigen::MatrixXd::Zero(4 * joints, 9);
+  Eigen::MatrixXd by_sensor = Eigen::MatrixXd::Zero(4 * joints, sensor_errors);
   for (std::size_t i = 0; i < work.size(); ++i) {
     if (placed.lines[i]) {
       const auto at = 4 * static_cast<Index>(i);
@@ -364,7 +369,7 @@ JointCalibration calibrate_joints(const Recording& recording, const Segmentation
                                       : choose_reference(segmentation, tested, recording.joint_positions.row(0), tolerance);
   Placed placed = place(work, result.reference_configuration, tolerance);
   const auto complete_chain = [&] {
-    combine_percussion(work, options, result.percussion_distance, result.percussion_distance_std);
+    combine_percussion(work, options, result);
     placed.chain.percussion_distance = result.percussion_distance;
     placed.chain.up_gravity = mean_up_gravity(placed.chain, segmentation, result.sensor.sensor, tolerance);
   };

@@ -28,8 +28,7 @@ struct Chart {
 
   template <typename T>
   struct Point {
-    Vector3<T> z, gravity, lever, constant;
-    T percussion_distance;
+    Vector3<T> z, gravity, lever, constant, percussion_distance;
   };
 
   template <typename T>
@@ -57,7 +56,7 @@ struct Chart {
     point.gravity = rotate(basis.cast<T>() * Eigen::Map<const Eigen::Matrix<T, 2, 1>>(p + 2));
     point.lever = rotate(basis.cast<T>() * Eigen::Map<const Eigen::Matrix<T, 2, 1>>(p + 4));
     point.constant = Eigen::Map<const Vector3<T>>(p + 6);
-    point.percussion_distance = p[9];
+    point.percussion_distance = Eigen::Map<const Vector3<T>>(p + 9);
     return point;
   }
 };
@@ -69,7 +68,7 @@ Eigen::Matrix<T, 5, 3> coefficients_of(const Chart::Point<T>& m) {
   rows.row(1) = m.gravity;
   rows.row(2) = -m.z.cross(m.gravity);
   rows.row(3) = m.z.cross(m.lever);
-  rows.row(4) = (-m.lever.array() - m.percussion_distance * (T(1.0) - m.z.array().square())).matrix();
+  rows.row(4) = (-m.lever.array() - m.percussion_distance.array() * (T(1.0) - m.z.array().square())).matrix();
   return rows;
 }
 
@@ -102,7 +101,9 @@ struct PriorResidual {
     }
     residuals[3] = (sqrt(m.gravity.squaredNorm() + along * along + T(1e-12)) - prior.gravity) / prior.gravity_std;
     const double distance_std = std::max(prior.percussion_distance_std, 1e-9);
-    residuals[4] = (m.percussion_distance - prior.percussion_distance) / distance_std;
+    for (int k = 0; k < 3; ++k) {
+      residuals[4 + k] = (m.percussion_distance[k] - prior.percussion_distance) / distance_std;
+    }
     return true;
   }
 };
@@ -164,12 +165,12 @@ JointModelFit solve_from(const Whitened& whitened, const JointModelPrior& prior,
   Eigen::Map<Eigen::Vector2d>(p.data() + 2) = chart.basis.transpose() * (0.5 * (cosine + start_axis.cross(sine)));
   Eigen::Map<Eigen::Vector2d>(p.data() + 4) = chart.basis.transpose() * tangential.cross(start_axis);
   Eigen::Map<Eigen::Vector3d>(p.data() + 6) = whitened.coefficients.row(0);
-  p[9] = prior.percussion_distance;
+  Eigen::Map<Eigen::Vector3d>(p.data() + 9).setConstant(prior.percussion_distance);
 
   ceres::Problem problem;
   auto* test = new ceres::AutoDiffCostFunction<WhitenedTest, 15, joint_model_parameters>(
       new WhitenedTest{whitened.whitener, whitened.target, chart});
-  auto* known = new ceres::AutoDiffCostFunction<PriorResidual, 5, joint_model_parameters>(new PriorResidual{prior, chart});
+  auto* known = new ceres::AutoDiffCostFunction<PriorResidual, 7, joint_model_parameters>(new PriorResidual{prior, chart});
   problem.AddResidualBlock(test, nullptr, p.data());
   problem.AddResidualBlock(known, nullptr, p.data());
   ceres::Solver::Options options;
@@ -213,7 +214,7 @@ void describe_at_solution(JointModelFit& fit, const Whitened& whitened, const Jo
     const Eigen::Matrix<double, 5, joint_model_parameters> block = whitened.whitener * fit.jacobian.middleRows<5>(5 * channel);
     fit.data_information += block.transpose() * block;
   }
-  std::array<Jet, 5> residuals;
+  std::array<Jet, 7> residuals;
   PriorResidual{prior, chart}(p.data(), residuals.data());
   fit.information = fit.data_information;
   for (const Jet& residual : residuals) {

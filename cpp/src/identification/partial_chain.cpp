@@ -33,7 +33,7 @@ Samples3 predict_readings(const PartialChain& chain, const Eigen::Ref<const Samp
     const FrameMotion motion = frame_motion(known, q, q_dot, q_ddot);
     const Eigen::Vector3d& w = motion.angular_velocity_sensor;
     const Eigen::Vector3d centripetal = w.squaredNorm() - w.array().square();
-    readings.row(i) = specific_force(motion, chain.up_gravity) - chain.percussion_distance * centripetal;
+    readings.row(i) = specific_force(motion, chain.up_gravity) - chain.percussion_distance.cwiseProduct(centripetal);
   }
   return readings;
 }

@@ -12,7 +12,7 @@ struct PartialChain {
   std::vector<std::optional<ScrewAxis>> axes;  // in the sensor frame at the reference configuration
   Eigen::VectorXd reference_configuration;
   Eigen::Vector3d up_gravity = Eigen::Vector3d::Zero();
-  double percussion_distance = 0.0;
+  Eigen::Vector3d percussion_distance = Eigen::Vector3d::Zero();
 
   [[nodiscard]] Index size() const { return static_cast<Index>(axes.size()); }
   [[nodiscard]] bool knows(Index joint) const { return axes[static_cast<std::size_t>(joint)].has_value(); }

@@ -11,27 +11,27 @@
 namespace circlepoint {
 namespace {
 
-using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Vector = Eigen::Matrix<double, sensor_errors, 1>;
 
 struct Posterior {
-  Vector9 mean;
-  Matrix9 covariance;
+  Vector mean;
+  SensorErrorMatrix covariance;
   double log_evidence;
 };
 
-// Posterior of the nine errors under prior standard deviations and noise, in coordinates scaled by the prior.
-Posterior posterior_of(const Matrix9& information, const Vector9& score, double squares, Index count, const Vector9& prior_std,
+// Posterior of the errors under prior standard deviations and noise, in coordinates scaled by the prior.
+Posterior posterior_of(const SensorErrorMatrix& information, const Vector& score, double squares, Index count, const Vector& prior_std,
                        double noise_std) {
-  const Matrix9 scaled = prior_std.asDiagonal() * information * prior_std.asDiagonal() / (noise_std * noise_std);
-  const Matrix9 precision = Matrix9::Identity() + scaled;
-  const Eigen::LLT<Matrix9> llt(precision);
-  const Vector9 scaled_score = prior_std.cwiseProduct(score) / (noise_std * noise_std);
-  const Vector9 mean = llt.solve(scaled_score);
-  const Matrix9 lower = llt.matrixL();
+  const SensorErrorMatrix scaled = prior_std.asDiagonal() * information * prior_std.asDiagonal() / (noise_std * noise_std);
+  const SensorErrorMatrix precision = SensorErrorMatrix::Identity() + scaled;
+  const Eigen::LLT<SensorErrorMatrix> llt(precision);
+  const Vector scaled_score = prior_std.cwiseProduct(score) / (noise_std * noise_std);
+  const Vector mean = llt.solve(scaled_score);
+  const SensorErrorMatrix lower = llt.matrixL();
   const double log_determinant = 2.0 * lower.diagonal().array().log().sum();
   Posterior posterior;
   posterior.mean = prior_std.cwiseProduct(mean);
-  posterior.covariance = prior_std.asDiagonal() * llt.solve(Matrix9::Identity()) * prior_std.asDiagonal();
+  posterior.covariance = prior_std.asDiagonal() * llt.solve(SensorErrorMatrix::Identity()) * prior_std.asDiagonal();
   posterior.log_evidence = -0.5 * (squares / (noise_std * noise_std) - scaled_score.dot(mean)) - 0.5 * log_determinant -
                            static_cast<double>(count) * std::log(noise_std);
   return posterior;
@@ -42,12 +42,12 @@ Posterior posterior_of(const Matrix9& information, const Vector9& score, double 
 SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwell_specific_force,
                                           const AccelerometerSpecification& specification, double gravity, bool adapt_prior) {
   require(gravity > 0.0, "gravity is " + std::to_string(gravity) + " m/s^2; give the local magnitude, about 9.8");
-  Vector9 prior;
+  Vector prior;
   prior << Eigen::Vector3d::Constant(specification.bias_std), Eigen::Vector3d::Constant(specification.scale_std),
-      Eigen::Vector3d::Constant(specification.misalignment_std);
+      Eigen::Vector3d::Constant(specification.misalignment_std), Eigen::Vector3d::Constant(specification.second_order_std);
   const Index count = dwell_specific_force.rows();
-  Matrix9 information = Matrix9::Zero();
-  Vector9 score = Vector9::Zero();
+  SensorErrorMatrix information = SensorErrorMatrix::Zero();
+  Vector score = Vector::Zero();
   double squares = 0.0;
   for (Index i = 0; i < count; ++i) {
     const Eigen::Vector3d y = dwell_specific_force.row(i);
@@ -55,8 +55,9 @@ SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwel
     require(std::isfinite(magnitude) && magnitude > 0.0,
             "dwell " + std::to_string(i) + " has specific force magnitude " + std::to_string(magnitude) + " m/s^2; leave it out");
     const Eigen::Vector3d u = y / magnitude;
-    Vector9 row;
-    row << u, gravity * u.cwiseAbs2(), gravity * u.x() * u.y(), gravity * u.x() * u.z(), gravity * u.y() * u.z();
+    Vector row;
+    row << u, gravity * u.cwiseAbs2(), gravity * u.x() * u.y(), gravity * u.x() * u.z(), gravity * u.y() * u.z(),
+        gravity * gravity * u.array().cube().matrix();
     information += row * row.transpose();
     score += row * (magnitude - gravity);
     squares += (magnitude - gravity) * (magnitude - gravity);
@@ -67,7 +68,7 @@ SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwel
   if (count == 0 || prior.maxCoeff() <= 0.0) {
     return result;
   }
-  const Vector9 floor_std = prior.cwiseMax(1e-12);
+  const Vector floor_std = prior.cwiseMax(1e-12);
   double best = -std::numeric_limits<double>::infinity();
   Posterior posterior;
   // A quarter of a percent in evidence is not worth a finer grid: steps of 12 % in both figures.
@@ -87,7 +88,8 @@ SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwel
   }
   result.sensor.bias = posterior.mean.head<3>();
   result.sensor.scale = posterior.mean.segment<3>(3);
-  result.sensor.misalignment = posterior.mean.tail<3>();
+  result.sensor.misalignment = posterior.mean.segment<3>(6);
+  result.sensor.second_order = posterior.mean.tail<3>();
   result.covariance = posterior.covariance;
   const double residual = squares - 2.0 * score.dot(posterior.mean) + posterior.mean.dot(information * posterior.mean);
   result.residual_rms = std::sqrt(std::max(0.0, residual) / static_cast<double>(count));

@@ -58,12 +58,14 @@ double correlation_factor(const Matrix15& score, const Matrix5& information, dou
   return std::clamp(sum / (15.0 * std::max(variance, 1e-300)), 1.0, 1e6);
 }
 
-// Derivative of the weighted score by the sensor's bias, scale and misalignment errors: the readings are linear in them.
-Eigen::Matrix<double, 15, 9> score_by_sensor(const RegressionStatistics& weighted) {
-  Eigen::Matrix<double, 15, 9> derivative = Eigen::Matrix<double, 15, 9>::Zero();
+// Derivative of the weighted score by the sensor's bias, scale, misalignment and second-order errors: the readings are
+// linear in them. `square_score` is sum x y_k^2, weighted alike.
+Eigen::Matrix<double, 15, sensor_errors> score_by_sensor(const RegressionStatistics& weighted, const Matrix53& square_score) {
+  Eigen::Matrix<double, 15, sensor_errors> derivative = Eigen::Matrix<double, 15, sensor_errors>::Zero();
   for (int channel = 0; channel < 3; ++channel) {
     derivative.block<5, 1>(5 * channel, channel) = -weighted.information.col(0);
     derivative.block<5, 1>(5 * channel, 3 + channel) = -weighted.score.col(channel);
+    derivative.block<5, 1>(5 * channel, 9 + channel) = -square_score.col(channel);
   }
   derivative.block<5, 1>(5, 6) = -weighted.score.col(0);
   derivative.block<5, 1>(10, 7) = -weighted.score.col(0);
@@ -144,7 +146,7 @@ void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& 
   fit.dwell_modelled = regression.static_regressors * model.coefficients();
   fit.dwell_noise_std = samples.dwell_floor;
   fit.static_noise_std = std::max(rms(fit.dwell_measured - fit.dwell_modelled, 7.0), samples.dwell_floor);
-  fit.dynamic_noise_std = std::max(rms(fit.measured - fit.modelled, 10.0), 1e-6);
+  fit.dynamic_noise_std = std::max(rms(fit.measured - fit.modelled, 12.0), 1e-6);
 }
 
 FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* chain, const JointModelPrior& prior,
@@ -198,8 +200,11 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
   const JointModelMatrix covariance = inverse * meat * inverse;
   const Eigen::Matrix<double, 4, joint_model_parameters> selector = JointModelFit::line_selector();
   fitted.fit.noise_covariance = selector * covariance * selector.transpose();
-  fitted.fit.percussion_distance_std = std::sqrt(std::max(0.0, covariance(9, 9)));
-  fitted.sensor_jacobian = selector * inverse * solution.jacobian.transpose() * score_by_sensor(weighted);
+  fitted.fit.percussion_distance_std = covariance.diagonal().tail<3>().cwiseMax(0.0).cwiseSqrt();
+  const Matrix53 square_score =
+      static_weight * problem.static_regressors.transpose() * problem.static_readings.cwiseAbs2() +
+      dynamic_weight * problem.dynamic_regressors.transpose() * problem.dynamic_readings.cwiseAbs2();
+  fitted.sensor_jacobian = selector * inverse * solution.jacobian.transpose() * score_by_sensor(weighted, square_score);
   return fitted;
 }
 

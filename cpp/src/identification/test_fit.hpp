@@ -7,7 +7,7 @@
 
 namespace circlepoint {
 
-using Matrix49 = Eigen::Matrix<double, 4, 9>;
+using SensorJacobian = Eigen::Matrix<double, 4, sensor_errors>;
 
 // Noise found in the residuals; carried from pass to pass.
 struct TestNoise {
@@ -19,7 +19,7 @@ struct TestNoise {
 struct FittedTest {
   TestFit fit;
   TestNoise noise;
-  Matrix49 sensor_jacobian = Matrix49::Zero();  // of the line's local coordinates by the sensor's nine static errors
+  SensorJacobian sensor_jacobian = SensorJacobian::Zero();  // of the line's local coordinates by the sensor's static errors
 };
 
 // Regression with the given noise; `chain` (null in the first pass) corrects for yielding joints.

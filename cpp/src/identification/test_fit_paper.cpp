@@ -49,7 +49,7 @@ FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, do
   model.lever = center.lever_sensor - center.lever_sensor.dot(z) * z;
   model.gravity = gravity.cosine - gravity.cosine.dot(z) * z;
   model.constant = gravity.constant;
-  model.percussion_distance = options.sensor.percussion_distance;
+  model.percussion_distance.setConstant(options.sensor.percussion_distance);
 
   FittedTest fitted;
   record_fit(fitted.fit, samples, make_regression(samples, nullptr, options.filter_order), model);

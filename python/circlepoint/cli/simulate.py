@@ -66,6 +66,7 @@ def run(options: argparse.Namespace) -> int:
     from circlepoint.protocol import load_plan  # noqa: PLC0415
     from circlepoint.recording_files import recording_stem, require_format, write_recording  # noqa: PLC0415
     from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
+    from circlepoint.truth import truth_document  # noqa: PLC0415
 
     require_format(options.out)
     require_writable_folder(options.out.parent)
@@ -109,51 +110,6 @@ def run(options: argparse.Namespace) -> int:
             f"{truth_path}"
         )
     return 0
-
-
-def truth_document(
-    arm: Arm,
-    chain: circlepoint.ScrewChain,
-    gravity_sensor: list[float],
-    sensor: circlepoint.AccelerometerModel,
-    seed: int,
-) -> Document:
-    """Return what is true of a simulated recording, under the names of ``calibration.json``; SI units.
-
-    Parameters
-    ----------
-    arm : Arm
-        The arm.
-    chain : ScrewChain
-        Its axes in the sensor frame at the reference configuration.
-    gravity_sensor : list of float
-        m/s^2, what an ideal sensor reads at rest there.
-    sensor : AccelerometerModel
-        The individual sensor.
-    seed : int
-        What it was drawn with.
-    """
-    joints = [
-        {
-            "name": joint.name,
-            "type": joint.type,
-            "direction_sensor": axis.line.direction.tolist(),
-            "point_sensor": axis.line.point.tolist() if joint.revolute else None,
-        }
-        for joint, axis in zip(arm.joints, chain.axes, strict=True)
-    ]
-    return {
-        "schema": "circlepoint/truth/1",
-        "arm": arm.name,
-        "seed": seed,
-        "reference_configuration": chain.reference_configuration.tolist(),
-        "joints": joints,
-        "gravity_sensor": gravity_sensor,
-        "sensor": {
-            name: getattr(sensor, name).tolist()
-            for name in ("bias", "scale", "misalignment", "percussion_distance", "second_order")
-        },
-    }
 
 
 def _seed(text: str) -> int:

@@ -53,13 +53,13 @@ struct TestFit {
   Eigen::VectorXd configuration;       ///< (n) rad or m
   JointModel model;
   Eigen::Matrix4d noise_covariance = Eigen::Matrix4d::Zero();  ///< of the line's local coordinates
-  double percussion_distance_std = 0.0;  ///< m
+  Eigen::Vector3d percussion_distance_std = Eigen::Vector3d::Zero();  ///< m
   double cutoff = 0.0;                 ///< Hz
   double dwell_noise_std = 0.0;        ///< m/s^2, of a dwell's mean by the scatter of its own samples
   double static_noise_std = 0.0;       ///< m/s^2, of a dwell's mean about the model
   double dynamic_noise_std = 0.0;      ///< m/s^2, of filtered samples about the model
   double correlation_factor = 1.0;     ///< variance inflation of sums of dynamic residuals
-  int parameters = 0;                  ///< of the model: line 4, gravity and bias 5, percussion distance 1
+  int parameters = 0;                  ///< of the model: line 4, gravity and bias 5, percussion distances 3
   int rank = 0;                        ///< parameter combinations the data alone determine
   double condition_number = 0.0;       ///< of the scaled information matrix, data alone
   double gravity_share = 0.0;          ///< |up-gravity orthogonal to the axis| / g
@@ -88,8 +88,8 @@ struct JointCalibration {
   Eigen::MatrixXd covariance;               ///< (4n, 4n) of the lines' local coordinates; zero where a joint is missing
   Eigen::Vector3d up_gravity_sensor = Eigen::Vector3d::Zero();  ///< m/s^2, an ideal sensor's reading at the reference
   SensorFromGravity sensor;
-  double percussion_distance = 0.0;      ///< m
-  double percussion_distance_std = 0.0;  ///< m
+  Eigen::Vector3d percussion_distance = Eigen::Vector3d::Zero();      ///< m, of each channel
+  Eigen::Vector3d percussion_distance_std = Eigen::Vector3d::Zero();  ///< m
   std::vector<TestFit> fits;
   std::vector<std::string> unseen;  ///< parameter combinations the data hardly show, in words
   int passes = 0;

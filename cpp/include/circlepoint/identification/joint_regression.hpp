@@ -4,8 +4,8 @@
 // While only one joint turns by `angle`, at rate w and acceleration alpha, the reading is
 //   y = A + B cos(angle) + C sin(angle) + E alpha + F w^2,
 // five constant 3-vectors in the sensor frame. With z the axis, b the lever from the axis to the sensor (orthogonal to z),
-// G the part of up-gravity orthogonal to z at angle zero and d the percussion distance:
-//   A = up-gravity along z + bias,  B = G,  C = -z x G,  E = z x b,  F_k = -b_k - d (1 - z_k^2).
+// G the part of up-gravity orthogonal to z at angle zero and d_k the percussion distance of channel k:
+//   A = up-gravity along z + bias,  B = G,  C = -z x G,  E = z x b,  F_k = -b_k - d_k (1 - z_k^2).
 // For white noise the 5x5 normal matrix and the 5x3 right-hand side are all a test has to say. They are collected in one pass,
 // add up over pieces and files, and the model fit sees fifteen numbers.
 //
@@ -48,7 +48,7 @@ struct JointModel {
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();      ///< b, m
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();    ///< G, m/s^2
   Eigen::Vector3d constant = Eigen::Vector3d::Zero();   ///< A, m/s^2
-  double percussion_distance = 0.0;                     ///< d, m
+  Eigen::Vector3d percussion_distance = Eigen::Vector3d::Zero();  ///< d, m, of each channel
 
   /// Rows A, B, C, E, F.
   [[nodiscard]] Matrix53 coefficients() const;
@@ -61,12 +61,12 @@ struct JointModelPrior {
   double bias_std = 0.05;                ///< m/s^2, of the bias left in A
   double gravity = standard_gravity;     ///< m/s^2
   double gravity_std = 0.05;             ///< m/s^2, of the magnitude read (scale-factor error included)
-  double percussion_distance = 0.0;      ///< m
-  double percussion_distance_std = 0.0;  ///< m; 0 fixes it
+  double percussion_distance = 0.0;      ///< m, the same for every channel
+  double percussion_distance_std = 0.0;  ///< m, of each channel about it; 0 fixes it
 };
 
-/// Number of parameters of the model's chart: direction 2, gravity 2, lever 2, constant 3, percussion distance 1.
-inline constexpr int joint_model_parameters = 10;
+/// Number of parameters of the model's chart: direction 2, gravity 2, lever 2, constant 3, percussion distances 3.
+inline constexpr int joint_model_parameters = 12;
 using JointModelMatrix = Eigen::Matrix<double, joint_model_parameters, joint_model_parameters>;
 /// d vec(coefficients) / d parameters; vec stacks the columns (channels).
 using JointModelJacobian = Eigen::Matrix<double, 15, joint_model_parameters>;
