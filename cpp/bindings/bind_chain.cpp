@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "circlepoint/chain/align_lines.hpp"
 #include "circlepoint/chain/dh_chain.hpp"
 #include "circlepoint/chain/screw_chain.hpp"
 #include "circlepoint/chain/screws_to_dh.hpp"
@@ -294,6 +295,26 @@ void bind_chain(py::module_& m) {
              << ", parallel=" << (pair.parallel ? "True" : "False") << ")";
         return text.str();
       });
+  m.def("align_lines", &align_lines, py::arg("target"), py::arg("source"), py::arg("length") = 0.5, release_gil(), R"(
+The rigid transform that brings lines closest to their counterparts, such as nominal axes to calibrated ones.
+
+Parameters
+----------
+target, source : list of Line
+    In correspondence, m.
+length : float
+    m; weighs a radian of direction against a metre of position.
+
+Returns
+-------
+(4, 4) float64
+    T_target_source; the smallest displacement where the lines leave freedom.
+
+Raises
+------
+InvalidInput
+    Different numbers of lines, or none.
+)");
   bind_dh_convention<StandardDhChain>(m, "StandardDhChain", "StandardDhConversion", R"(A serial chain in the standard DH convention.
 
 ``T_base_sensor(q) = base T_0_1(q_1) ... T_n-1_n(q_n) tool``; a revolute joint adds q to theta, a prismatic one to d.)");

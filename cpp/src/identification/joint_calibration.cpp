@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "circlepoint/core/error.hpp"
@@ -22,6 +23,12 @@ struct JointWork {
   std::optional<FittedTest> fitted;
   std::string reason;
 };
+
+std::string one_decimal(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", value);
+  return text.data();
+}
 
 std::string joint_name(Index joint) { return "joint " + std::to_string(joint + 1); }
 
@@ -84,7 +91,7 @@ std::vector<JointWork> gather_all(const Recording& recording, const Segmentation
     const auto column = recording.joint_positions.col(joint);
     const double travel = column.maxCoeff() - column.minCoeff();
     mine.reason = travel < 0.01 ? "it never moves in this recording; turn it alone, still poses and a motion such as 0.5 Hz over 150 degrees for 6 s"
-                                : "it never moves alone in this recording (it travels " + std::to_string(travel / degree) +
+                                : "it never moves alone in this recording (it travels " + one_decimal(travel / degree) +
                                       " degrees, always together with others or too short); turn it alone, still poses and a "
                                       "motion such as 0.5 Hz over 150 degrees for 6 s";
   }
@@ -204,8 +211,17 @@ void combine_percussion(const std::vector<JointWork>& work, const JointCalibrati
     }
   }
   if (weight.minCoeff() > 0.0) {
+    // The sensor's static errors are common to all joints and do not average out.
+    Eigen::Array3d by_sensor = Eigen::Array3d::Zero();
+    for (const JointWork& mine : work) {
+      if (mine.fitted) {
+        const PercussionJacobian& jacobian = mine.fitted->percussion_jacobian;
+        const Eigen::Array3d w = mine.fitted->fit.percussion_distance_std.array().square().inverse() / weight;
+        by_sensor += w * (jacobian * result.sensor.covariance * jacobian.transpose()).diagonal().array();
+      }
+    }
     result.percussion_distance = sum / weight;
-    result.percussion_distance_std = weight.rsqrt();
+    result.percussion_distance_std = (weight.inverse() + by_sensor).sqrt();
   } else {
     result.percussion_distance.setConstant(options.sensor.percussion_distance);
     result.percussion_distance_std.setConstant(options.sensor.percussion_distance_std);
@@ -305,7 +321,7 @@ void name_unseen(JointCalibration& result, const Segmentation& segmentation) {
     const JointTest& test = segmentation.tests[static_cast<std::size_t>(fit.test)];
     if (fit.gravity_share < 0.1) {
       result.unseen.push_back(joint_name(fit.joint) + " direction x bias: its axis is within " +
-                              std::to_string(std::asin(std::min(1.0, fit.gravity_share)) / degree) +
+                              one_decimal(std::asin(std::min(1.0, fit.gravity_share)) / degree) +
                               " degrees of gravity, so a tilt of it reads like a bias; tilt the base, or estimate the bias "
                               "from tests of the other joints");
     }
@@ -316,7 +332,7 @@ void name_unseen(JointCalibration& result, const Segmentation& segmentation) {
     }
     if (std::max(test.motion_span, test.dwell_span) < 0.5) {
       result.unseen.push_back(joint_name(fit.joint) + " line: it turned by " +
-                              std::to_string(std::max(test.motion_span, test.dwell_span) / degree) +
+                              one_decimal(std::max(test.motion_span, test.dwell_span) / degree) +
                               " degrees only; a wider arc shows its line better");
     }
   }

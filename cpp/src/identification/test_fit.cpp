@@ -204,7 +204,10 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
   const Matrix53 square_score =
       static_weight * problem.static_regressors.transpose() * problem.static_readings.cwiseAbs2() +
       dynamic_weight * problem.dynamic_regressors.transpose() * problem.dynamic_readings.cwiseAbs2();
-  fitted.sensor_jacobian = selector * inverse * solution.jacobian.transpose() * score_by_sensor(weighted, square_score);
+  const Eigen::Matrix<double, joint_model_parameters, sensor_errors> by_sensor =
+      inverse * solution.jacobian.transpose() * score_by_sensor(weighted, square_score);
+  fitted.sensor_jacobian = selector * by_sensor;
+  fitted.percussion_jacobian = by_sensor.bottomRows<3>();
   return fitted;
 }
 

@@ -8,6 +8,7 @@
 namespace circlepoint {
 
 using SensorJacobian = Eigen::Matrix<double, 4, sensor_errors>;
+using PercussionJacobian = Eigen::Matrix<double, 3, sensor_errors>;
 
 // Noise found in the residuals; carried from pass to pass.
 struct TestNoise {
@@ -20,6 +21,7 @@ struct FittedTest {
   TestFit fit;
   TestNoise noise;
   SensorJacobian sensor_jacobian = SensorJacobian::Zero();  // of the line's local coordinates by the sensor's static errors
+  PercussionJacobian percussion_jacobian = PercussionJacobian::Zero();  // of the percussion distances by the same
 };
 
 // Regression with the given noise; `chain` (null in the first pass) corrects for yielding joints.
