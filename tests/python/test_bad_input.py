@@ -167,6 +167,7 @@ def test_bad_arm_says_where_and_what_to_do(name, tmp_path, capsys):
 BAD_MAPS = {
     "unknown key": ("speed: v\n", ["line 1", "speed", "unknown key"]),
     "unknown unit": ("units: {a: gal}\n", ["units.a", "'gal'", "m/s^2"]),
+    "unit that is a list": ("units: {a: [g]}\n", ["line 1", "units.a", "a list of 1", "m/s^2"]),
     "column not there": ("q1: pan\n", ["q1", "'pan'", "no file has", "ax"]),
     "list of the wrong length": ("q: [q1]\n", ["list of 2 column names"]),
     "one column twice": ("q: [q1, q1]\n", ["'q1'", "two quantities"]),
