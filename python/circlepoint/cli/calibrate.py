@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     import circlepoint
-    from circlepoint.calibrate import Calibration
+    from circlepoint.calibration import Calibration
     from circlepoint.recording_io import LoadedRecording
 
 METHODS = ("joint", "position", "velocity")
@@ -111,7 +111,7 @@ def _estimate(
     arm: Arm,
     sensor: circlepoint.AccelerometerSpecification | None,
 ) -> Calibration:
-    from circlepoint.calibrate import calibrate  # noqa: PLC0415
+    from circlepoint.calibration import calibrate  # noqa: PLC0415
     from circlepoint.document import with_reading  # noqa: PLC0415
 
     calibration = calibrate(
