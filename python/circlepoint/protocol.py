@@ -146,11 +146,10 @@ def _rest(fields: Fields, prismatic: list[bool]) -> NDArray[np.float64]:
         fields.fail(key, f"is {describe(value)}, must be {need}")
     if key == "rest_deg" and any(prismatic):
         fields.fail(key, f"is {describe(value)}, but the arm has prismatic joints: give rest, in rad and m")
-    where = (*fields.where, key)
     if isinstance(value, list):
-        rest = np.array([fields.file.number((*where, index), entry) for index, entry in enumerate(value)])
+        rest = np.array([fields.checked((key, index), entry) for index, entry in enumerate(value)])
     else:
-        rest = np.full(len(prismatic), fields.file.number(where, value))
+        rest = np.full(len(prismatic), fields.checked((key,), value))
     return rest if key == "rest" else np.radians(rest)
 
 

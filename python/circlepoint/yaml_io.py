@@ -2,10 +2,10 @@
 
 import math
 import re
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 import yaml
 
@@ -13,6 +13,8 @@ from circlepoint._core import InvalidInput
 
 # YAML 1.1 reads 1e-3 (no point) and 1.0e3 (no sign) as text; people write them all the same.
 _EXPONENTIAL = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+
+Choice = TypeVar("Choice")
 
 
 @dataclass(frozen=True)
@@ -90,18 +92,42 @@ class Fields:
             self.fail(key, f"is missing; {need} is needed")
         return self.values[key]
 
+    def given(self, key: str) -> bool:
+        """Whether the field is there and not left empty."""
+        return self.values.get(key) is not None
+
     def number(
-        self, key: str, *, default: float | None = None, at_least: float = -math.inf, above: float = -math.inf
+        self,
+        key: str,
+        *,
+        default: float | None = None,
+        at_least: float = -math.inf,
+        above: float = -math.inf,
+        need: str | None = None,
     ) -> float:
         """Return a finite number within its bounds."""
         if default is not None and key not in self:
             return default
-        need = "a finite number" + _bounds(at_least, above)
-        value = self.value(key, need)
-        number = self.file.number((*self.where, key), value)
+        value = self.value(key, need or _finite(at_least, above))
+        return self.checked((key,), value, at_least=at_least, above=above)
+
+    def checked(
+        self, place: tuple[Hashable, ...], value: Any, *, at_least: float = -math.inf, above: float = -math.inf
+    ) -> float:
+        """Return a value of this mapping, at `place` within it, as a finite number within its bounds."""
+        number = self.file.number((*self.where, *place), value)
         if number < at_least or number <= above:
-            self.fail(key, f"is {describe(value)}, must be {need}")
+            message = f"is {describe(value)}, must be {_finite(at_least, above)}"
+            raise self.file.error((*self.where, *place), message)
         return number
+
+    def choice(self, key: str, known: Mapping[str, Choice]) -> Choice:
+        """Return what the field's value stands for."""
+        need = " or ".join(known)
+        value = self.value(key, need)
+        if not isinstance(value, str) or value not in known:
+            self.fail(key, f"is {describe(value)}, must be {need}")
+        return known[value]
 
     def integer(self, key: str, *, default: int | None = None, at_least: int) -> int:
         """Return a whole number of at least a bound."""
@@ -213,10 +239,10 @@ def describe(value: Any) -> str:
     return shown if len(shown) <= 60 else shown[:57] + "..."
 
 
-def _bounds(at_least: float, above: float) -> str:
+def _finite(at_least: float, above: float) -> str:
     if above > -math.inf:
-        return f" above {above:g}"
-    return f" of at least {at_least:g}" if at_least > -math.inf else ""
+        return f"a finite number above {above:g}"
+    return f"a finite number of at least {at_least:g}" if at_least > -math.inf else "a finite number"
 
 
 def _as_number(value: Any) -> str:
