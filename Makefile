@@ -32,7 +32,7 @@ $(BIN)/python: | system
 	$(BIN)/python -m pip install --quiet --upgrade 'pip>=25.1'
 
 .venv/dev.stamp: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --group dev 'scikit-build-core>=0.10' 'pybind11>=3.0,<4'
+	$(BIN)/python -m pip install --quiet --group dev 'scikit-build-core>=0.10' 'pybind11~=3.1.0'
 	@touch $@
 
 .venv/install.stamp: $(SOURCES) | $(BIN)/python
