@@ -12,7 +12,7 @@ SOURCES := CMakeLists.txt pyproject.toml README.md LICENSE $(shell find cmake cp
 export CMAKE_CXX_COMPILER_LAUNCHER := ccache
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
-.PHONY: help demo test install system ctest pytest lint bench accuracy clean
+.PHONY: help demo test install system ctest pytest lint stub bench accuracy clean
 
 help:
 	@sed -n 's/^# //p' Makefile | head -4
@@ -32,7 +32,7 @@ $(BIN)/python: | system
 	$(BIN)/python -m pip install --quiet --upgrade 'pip>=25.1'
 
 .venv/dev.stamp: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --group dev 'scikit-build-core>=0.10' 'pybind11>=3.0,<4'
+	$(BIN)/python -m pip install --quiet --group dev 'scikit-build-core>=0.10' 'pybind11~=3.1.0'
 	@touch $@
 
 .venv/install.stamp: $(SOURCES) | $(BIN)/python
@@ -54,7 +54,12 @@ pytest: install .venv/dev.stamp
 
 lint: install .venv/dev.stamp
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+
+# The type stub of the compiled core; after every change of the bindings.
+stub: install .venv/dev.stamp
+	$(BIN)/python tests/python/core_stub.py python/circlepoint/_core.pyi
 
 test: install ctest pytest lint
 

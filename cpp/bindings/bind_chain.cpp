@@ -3,6 +3,7 @@
 
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "bindings.hpp"
 #include "circlepoint/chain/align_lines.hpp"
@@ -55,9 +56,12 @@ py::array_t<double> poses(const Chain& chain, const py::array_t<double, py::arra
 template <class Chain>
 void bind_forward_kinematics(py::module_& m) {
   m.def("forward_kinematics", &poses<Chain>, py::arg("chain"), py::arg("q").noconvert(), forward_kinematics_doc);
+  // Any other sequence of numbers, such as a list.
   m.def("forward_kinematics",
-        py::overload_cast<const Chain&, const Eigen::Ref<const Eigen::VectorXd>&>(&forward_kinematics), py::arg("chain"),
-        py::arg("q"), release_gil(), forward_kinematics_doc);
+        [](const Chain& chain, const std::vector<double>& q) {
+          return forward_kinematics(chain, Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Index>(q.size())));
+        },
+        py::arg("chain"), py::arg("q"), release_gil(), forward_kinematics_doc);
 }
 
 std::string repr(const DhRow& row) {

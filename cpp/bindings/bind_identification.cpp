@@ -180,7 +180,8 @@ NotIdentifiable
       .def_readonly("converged", &CenterOfRotation::converged)
       .def_readonly("path", &CenterOfRotation::path, "(M, 3) position (m) or velocity (m/s) in O_w as integrated");
   m.def("center_by_position", &center_by_position, py::arg("angle").noconvert(), py::arg("specific_force").noconvert(),
-        py::arg("sample_rate"), py::arg("axis_direction"), py::arg("gravity"), py::arg("options") = CenterOptions{},
+        py::arg("sample_rate"), py::arg("axis_direction"), py::arg("gravity"),
+        py::arg_v("options", CenterOptions{}, "CenterOptions()"),
         release_gil(), R"(
 Centre of rotation by double integration and a circle (the paper's first method).
 
@@ -212,7 +213,8 @@ References
 Canepa, Hollerbach and Boelen (1994), eq. (4)-(8), (9)-(10); docs/method, section 2.
 )");
   m.def("center_by_velocity", &center_by_velocity, py::arg("angle").noconvert(), py::arg("specific_force").noconvert(),
-        py::arg("sample_rate"), py::arg("axis_direction"), py::arg("gravity"), py::arg("options") = CenterOptions{},
+        py::arg("sample_rate"), py::arg("axis_direction"), py::arg("gravity"),
+        py::arg_v("options", CenterOptions{}, "CenterOptions()"),
         release_gil(), R"(
 Centre of rotation by single integration and the encoder's rate (the paper's second method).
 
@@ -277,7 +279,8 @@ docs/method, section 3.
       .def_readonly("data_information", &JointModelFit::data_information, "(12, 12) data alone")
       .def_readonly("iterations", &JointModelFit::iterations)
       .def_readonly("converged", &JointModelFit::converged);
-  m.def("fit_joint_model", &fit_joint_model, py::arg("weighted"), py::arg("prior") = JointModelPrior{}, release_gil(), R"(
+  m.def("fit_joint_model", &fit_joint_model, py::arg("weighted"),
+        py::arg_v("prior", JointModelPrior{}, "JointModelPrior()"), release_gil(), R"(
 Maximum-likelihood joint model from sufficient statistics.
 
 Parameters
@@ -398,7 +401,7 @@ void bind_arm(py::module_& m) {
       .def("complete", &JointCalibration::complete)
       .def("chain", &JointCalibration::chain, "The calibrated ScrewChain; raises NotIdentifiable naming missing joints.");
   m.def("calibrate_joints", &calibrate_joints, py::arg("recording"), py::arg("segmentation"),
-        py::arg("options") = JointCalibrationOptions{}, release_gil(), R"(
+        py::arg_v("options", JointCalibrationOptions{}, "JointCalibrationOptions()"), release_gil(), R"(
 Every joint's axis, one joint at a time, from a segmented recording.
 
 Parameters

@@ -1,3 +1,4 @@
+#include <pybind11/native_enum.h>
 #include <pybind11/operators.h>
 
 #include "bindings.hpp"
@@ -21,11 +22,13 @@ void bind_timeline(py::module_& m) {
       .def_readonly("end", &IndexRange::end)
       .def_property_readonly("size", &IndexRange::size)
       .def(py::self == py::self)
+      .def("__hash__", [](const IndexRange& r) { return py::hash(py::make_tuple(r.begin, r.end)); })
       .def("__repr__", [](const IndexRange& r) { return py::str("IndexRange({}, {})").format(r.begin, r.end); });
 
-  py::enum_<StampRule>(m, "StampRule", "What became of the time stamps.")
+  py::native_enum<StampRule>(m, "StampRule", "enum.Enum", "What became of the time stamps.")
       .value("regularised", StampRule::regularised, "samples kept, stamps replaced by the fitted clock")
-      .value("believed", StampRule::believed, "stamps kept, samples interpolated at the clock's ticks");
+      .value("believed", StampRule::believed, "stamps kept, samples interpolated at the clock's ticks")
+      .finalize();
 
   py::class_<TimelineGap>(m, "TimelineGap", "Missing samples between two rows.")
       .def_readonly("index", &TimelineGap::index, "0-based input row after the gap")
@@ -65,7 +68,8 @@ void bind_timeline(py::module_& m) {
       .def_readwrite("gap_threshold", &TimelineOptions::gap_threshold,
           "periods, for stamps too jittered to count ticks");
 
-  m.def("analyse_timeline", &analyse_timeline, py::arg("time").noconvert(), py::arg("options") = TimelineOptions{},
+  m.def("analyse_timeline", &analyse_timeline, py::arg("time").noconvert(),
+        py::arg_v("options", TimelineOptions{}, "TimelineOptions()"),
         release_gil(), R"(Sample rate, jitter, resolution and gaps of time stamps.
 
 Parameters
@@ -145,7 +149,8 @@ void bind_recording_type(py::module_& m) {
       py::arg("time").noconvert(), py::arg("joint_positions").noconvert(), py::arg("specific_force").noconvert(),
           py::kw_only(),
       py::arg("angular_velocity").noconvert() = py::none(), py::arg("temperature").noconvert() = py::none(),
-      py::arg("options") = TimelineOptions{}, release_gil(), R"(A recording from one log.
+      py::arg_v("options", TimelineOptions{}, "TimelineOptions()"), release_gil(),
+      R"(A recording from one log.
 
 Rounded stamps are replaced by the uniform clock they fit; stamps with true jitter are believed and the samples
 interpolated;
@@ -186,7 +191,8 @@ InvalidInput
       py::arg("joint_time").noconvert(), py::arg("joint_positions").noconvert(), py::arg("sensor_time").noconvert(),
       py::arg("specific_force").noconvert(), py::arg("clock"), py::kw_only(),
       py::arg("angular_velocity").noconvert() = py::none(), py::arg("temperature").noconvert() = py::none(),
-      py::arg("options") = TimelineOptions{}, release_gil(), R"(A recording from two logs with two clocks.
+      py::arg_v("options", TimelineOptions{}, "TimelineOptions()"), release_gil(),
+      R"(A recording from two logs with two clocks.
 
 The sensor's samples are kept, the joints interpolated at them; time is the joint clock's.
 
@@ -297,7 +303,8 @@ void bind_clock_alignment(py::module_& m) {
 
   m.def("align_clocks", &align_clocks, py::arg("joint_time").noconvert(), py::arg("joint_positions").noconvert(),
         py::arg("sensor_time").noconvert(), py::arg("specific_force").noconvert(),
-        py::arg("options") = ClockAlignmentOptions{}, release_gil(), R"(Offset and rate between joint and sensor clock.
+        py::arg_v("options", ClockAlignmentOptions{}, "ClockAlignmentOptions()"), release_gil(),
+        R"(Offset and rate between joint and sensor clock.
 
 No kinematic model is needed: while one joint moves alone, the specific force is linear in cos, sin, acceleration and
 squared

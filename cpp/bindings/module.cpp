@@ -1,6 +1,24 @@
+#include <string>
+
 #include "bindings.hpp"
 #include "circlepoint/core/types.hpp"
 #include "circlepoint/core/version.hpp"
+
+namespace {
+
+/// What the package re-exports: every name that does not start with an underscore.
+pybind11::list public_names(const pybind11::module_& m) {
+  pybind11::list names;
+  for (const auto& [name, value] : m.attr("__dict__").cast<pybind11::dict>()) {
+    if (!name.cast<std::string>().starts_with('_')) {
+      names.append(name);
+    }
+  }
+  names.attr("sort")();
+  return names;
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_core, m) {
   using namespace circlepoint::bindings;
@@ -16,4 +34,5 @@ PYBIND11_MODULE(_core, m) {
   bind_segmentation(m);
   bind_identification(m);
   bind_simulation(m);
+  m.attr("__all__") = public_names(m);
 }

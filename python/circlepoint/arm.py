@@ -16,17 +16,20 @@ Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration 
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Literal
 
 from circlepoint._core import InvalidInput
-from circlepoint.yaml_io import YamlFile, describe, load_yaml
+from circlepoint.yaml_io import Fields, describe, load_fields
 
 JointType = Literal["revolute", "prismatic"]
 DhConvention = Literal["standard", "modified"]
 
-_JOINT_TYPES = ("revolute", "prismatic")
-_CONVENTIONS = ("standard", "modified")
+_JOINT_KEYS = ("name", "type", "limits", "velocity", "acceleration")
+_JOINT_TYPES: dict[str, JointType] = {"revolute": "revolute", "prismatic": "prismatic"}
+_CONVENTIONS: dict[str, DhConvention] = {"standard": "standard", "modified": "modified"}
 _DH_PARAMETERS = ("a", "alpha", "d", "theta")
+_COUNTS = "counts_per_revolution"
+_DH_NUMBER = "a finite number (0.0 where it is zero)"
 _LARGEST_LIMIT = 8 * math.pi  # rad: four turns either way; beyond that a limit was written in degrees
 _LONGEST_LINK = 20.0  # m: beyond that a length was written in millimetres
 
@@ -127,20 +130,18 @@ def load_arm(path: str | Path) -> Arm:
     if _is_urdf(path):
         raise InvalidInput(
             f"{path}: is a URDF, which is not read yet; describe the arm in an arm.yaml instead: its joints from base "
-            f"to "
-            "tip as `joints: [{name: ..., type: revolute}, ...]`"
+            "to tip as `joints: [{name: ..., type: revolute}, ...]`"
         )
-    document = load_yaml(path)
-    document.only_keys((), document.data, ("name", "joints", "dh", "encoder"))
-    for key in ("name", "joints"):
-        if key not in document.data:
-            raise document.error((), f"the key `{key}` is missing")
-    joints = _joints(document)
+    fields = load_fields(path, ("name", "joints", "dh", "encoder"))
+    name = fields.text("name", "the arm's name")
+    joints = _joints(fields)
     return Arm(
-        name=document.text(("name",), document.data["name"]),
+        name=name,
         joints=joints,
-        dh=_nominal_dh(document, len(joints)) if "dh" in document.data else None,
-        encoder_counts=_encoder_counts(document, len(joints)) if "encoder" in document.data else None,
+        dh=_nominal_dh(fields.fields("dh", ("convention", "rows")), len(joints)) if fields.given("dh") else None,
+        encoder_counts=_encoder_counts(fields.fields("encoder", (_COUNTS,)), len(joints))
+        if fields.given("encoder")
+        else None,
     )
 
 
@@ -155,123 +156,83 @@ def _is_urdf(path: Path) -> bool:
     return start.startswith(b"<") and (b"<robot" in start or start.startswith(b"<?xml"))
 
 
-def _joints(document: YamlFile) -> tuple[Joint, ...]:
-    entries = document.data["joints"]
-    if not isinstance(entries, list) or not entries:
-        raise document.error(("joints",), f"is {describe(entries)}, must be a list of joints, base to tip")
+def _joints(fields: Fields) -> tuple[Joint, ...]:
     joints: list[Joint] = []
-    for index, entry in enumerate(entries):
-        joint = _joint(document, ("joints", index), entry)
+    for entry in fields.each("joints", "a list of joints, base to tip", _JOINT_KEYS):
+        joint = _joint(entry)
         if joint.name in (other.name for other in joints):
-            raise document.error(
-                ("joints", index, "name"), f"{joint.name!r} names an earlier joint too; names must differ"
-            )
+            entry.fail("name", f"{joint.name!r} names an earlier joint too; names must differ")
         joints.append(joint)
     return tuple(joints)
 
 
-def _joint(document: YamlFile, where: tuple[str, int], entry: Any) -> Joint:
-    document.only_keys(where, entry, ("name", "type", "limits", "velocity", "acceleration"))
-    for key in ("name", "type"):
-        if key not in entry:
-            raise document.error(where, f"the key `{key}` is missing")
-    kind = entry["type"]
-    if kind not in _JOINT_TYPES:
-        raise document.error((*where, "type"), f"is {describe(kind)}, must be revolute or prismatic")
-    rates = {}
-    for key in ("velocity", "acceleration"):
-        if entry.get(key) is not None:
-            rates[key] = document.number((*where, key), entry[key])
-            if rates[key] <= 0:
-                raise document.error((*where, key), f"is {rates[key]:g}, must be greater than zero")
+def _joint(fields: Fields) -> Joint:
     return Joint(
-        name=document.text((*where, "name"), entry["name"]),
-        type=cast("JointType", kind),
-        limits=_limits(document, (*where, "limits"), entry["limits"], kind)
-        if entry.get("limits") is not None
-        else None,
-        velocity=rates.get("velocity"),
-        acceleration=rates.get("acceleration"),
+        name=fields.text("name", "a name"),
+        type=fields.choice("type", _JOINT_TYPES),
+        limits=_limits(fields) if fields.given("limits") else None,
+        velocity=fields.number("velocity", above=0.0) if fields.given("velocity") else None,
+        acceleration=fields.number("acceleration", above=0.0) if fields.given("acceleration") else None,
     )
 
 
-def _limits(document: YamlFile, where: tuple[str | int, ...], value: Any, kind: str) -> tuple[float, float]:
+def _limits(fields: Fields) -> tuple[float, float]:
+    value = fields.value("limits", "[lowest, highest]")
     if not isinstance(value, list) or len(value) != 2:
-        raise document.error(where, f"is {describe(value)}, must be [lowest, highest]")
-    low, high = (document.number((*where, index), item) for index, item in enumerate(value))
+        fields.fail("limits", f"is {describe(value)}, must be [lowest, highest]")
+    low, high = (fields.checked(("limits", index), entry) for index, entry in enumerate(value))
     if low >= high:
-        raise document.error(where, f"the lowest, {low:g}, is not below the highest, {high:g}")
-    if kind == "revolute" and max(abs(low), abs(high)) > _LARGEST_LIMIT:
-        raise document.error(
-            where,
+        fields.fail("limits", f"the lowest, {low:g}, is not below the highest, {high:g}")
+    revolute = fields.values["type"] == "revolute"
+    if revolute and max(abs(low), abs(high)) > _LARGEST_LIMIT:
+        fields.fail(
+            "limits",
             f"[{low:g}, {high:g}] looks like degrees; write radians: [{math.radians(low):.6f}, "
-            f"{math.radians(high):.6f}] "
-            "(leave limits out for a joint that turns without end)",
+            f"{math.radians(high):.6f}] (leave limits out for a joint that turns without end)",
         )
-    if kind == "prismatic" and max(abs(low), abs(high)) > _LONGEST_LINK:
-        raise document.error(where, f"[{low:g}, {high:g}] looks like millimetres; write metres")
+    if not revolute and max(abs(low), abs(high)) > _LONGEST_LINK:
+        fields.fail("limits", f"[{low:g}, {high:g}] looks like millimetres; write metres")
     return low, high
 
 
-def _nominal_dh(document: YamlFile, joints: int) -> NominalDh | None:
-    if document.data["dh"] is None:
-        return None
-    section = document.only_keys(("dh",), document.data["dh"], ("convention", "rows"))
-    for key in ("convention", "rows"):
-        if key not in section:
-            raise document.error(("dh",), f"the key `{key}` is missing")
-    convention = section["convention"]
-    if convention not in _CONVENTIONS:
-        raise document.error(("dh", "convention"), f"is {describe(convention)}, must be standard or modified (Craig)")
-    rows = section["rows"]
-    if not isinstance(rows, list):
-        raise document.error(("dh", "rows"), f"is {describe(rows)}, must be a list with one row a joint")
+def _nominal_dh(fields: Fields, joints: int) -> NominalDh:
+    convention = fields.choice("convention", _CONVENTIONS)
+    rows = tuple(_dh_row(row) for row in fields.each("rows", "a list with one row a joint", _DH_PARAMETERS))
     if len(rows) != joints:
-        raise document.error(("dh", "rows"), f"has {len(rows)} rows for {joints} joints; one row a joint is needed")
-    return NominalDh(
-        cast("DhConvention", convention), tuple(_dh_row(document, index, row) for index, row in enumerate(rows))
+        fields.fail("rows", f"has {len(rows)} rows for {joints} joints; one row a joint is needed")
+    return NominalDh(convention, rows)
+
+
+def _dh_row(fields: Fields) -> DhRow:
+    return DhRow(
+        a=_length(fields, "a"),
+        alpha=_angle(fields, "alpha"),
+        d=_length(fields, "d"),
+        theta=_angle(fields, "theta"),
     )
 
 
-def _dh_row(document: YamlFile, index: int, row: Any) -> DhRow:
-    where = ("dh", "rows", index)
-    document.only_keys(where, row, _DH_PARAMETERS)
-    values: dict[str, float] = {}
-    for key in _DH_PARAMETERS:
-        if key not in row:
-            raise document.error(where, f"the key `{key}` is missing (write 0.0 where it is zero)")
-        values[key] = document.number((*where, key), row[key])
-        if key in {"alpha", "theta"} and abs(values[key]) > 2 * math.pi:
-            raise document.error(
-                (*where, key),
-                f"{values[key]:g} looks like degrees; write radians: {math.radians(values[key]):.10g}",
-            )
-        if key in {"a", "d"} and abs(values[key]) > _LONGEST_LINK:
-            raise document.error(
-                (*where, key), f"{values[key]:g} looks like millimetres; write metres: {values[key] / 1000:g}"
-            )
-    return DhRow(**values)
+def _angle(fields: Fields, key: str) -> float:
+    angle = fields.number(key, need=_DH_NUMBER)
+    if abs(angle) > 2 * math.pi:
+        fields.fail(key, f"{angle:g} looks like degrees; write radians: {math.radians(angle):.10g}")
+    return angle
 
 
-def _encoder_counts(document: YamlFile, joints: int) -> tuple[float | None, ...] | None:
-    if document.data["encoder"] is None:
-        return None
-    section = document.only_keys(("encoder",), document.data["encoder"], ("counts_per_revolution",))
-    where = ("encoder", "counts_per_revolution")
-    if "counts_per_revolution" not in section:
-        raise document.error(("encoder",), "the key `counts_per_revolution` is missing")
-    value = section["counts_per_revolution"]
-    entries = value if isinstance(value, list) else [value] * joints
-    if len(entries) != joints:
-        raise document.error(where, f"has {len(entries)} values for {joints} joints; give one, or one a joint")
-    counts: list[float | None] = []
-    for index, entry in enumerate(entries):
-        place = (*where, index) if isinstance(value, list) else where
-        if entry is None and isinstance(value, list):
-            counts.append(None)
-            continue
-        number = document.number(place, entry)
-        if number <= 0:
-            raise document.error(place, f"is {number:g}, must be greater than zero")
-        counts.append(number)
-    return tuple(counts)
+def _length(fields: Fields, key: str) -> float:
+    length = fields.number(key, need=_DH_NUMBER)
+    if abs(length) > _LONGEST_LINK:
+        fields.fail(key, f"{length:g} looks like millimetres; write metres: {length / 1000:g}")
+    return length
+
+
+def _encoder_counts(fields: Fields, joints: int) -> tuple[float | None, ...]:
+    value = fields.value(_COUNTS, "a number, or a list with one a joint (null: unknown)")
+    if not isinstance(value, list):
+        return (fields.number(_COUNTS, above=0.0),) * joints
+    if len(value) != joints:
+        fields.fail(_COUNTS, f"has {len(value)} values for {joints} joints; give one, or one a joint")
+    return tuple(
+        None if entry is None else fields.checked((_COUNTS, index), entry, above=0.0)
+        for index, entry in enumerate(value)
+    )

@@ -243,7 +243,7 @@ def _units(document: YamlFile, joints: list[str]) -> dict[str, str]:
     known |= dict.fromkeys(["q", *joints], ANGLE_UNITS | LENGTH_UNITS)
     units: dict[str, str] = {}
     for key, value in document.only_keys(("units",), document.data["units"], known).items():
-        if value not in known[key]:
+        if not isinstance(value, str) or value not in known[key]:
             raise document.error(("units", key), f"is {describe(value)}, must be one of {', '.join(known[key])}")
         units[key] = value
     return units

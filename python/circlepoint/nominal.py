@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from numpy.typing import ArrayLike
 
 import circlepoint
 from circlepoint._core import InvalidInput
-from circlepoint.arm import Arm
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from circlepoint.arm import Arm
 
 DhChain = circlepoint.StandardDhChain | circlepoint.ModifiedDhChain
 
 
 def joint_types(arm: Arm) -> list[circlepoint.JointType]:
     """Return the joint types, base to tip."""
-    return [circlepoint.JointType.revolute if joint.revolute else circlepoint.JointType.prismatic for joint in arm.joints]
+    return [
+        circlepoint.JointType.revolute if joint.revolute else circlepoint.JointType.prismatic for joint in arm.joints
+    ]
 
 
 def nominal_dh_chain(arm: Arm) -> DhChain | None:

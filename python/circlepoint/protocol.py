@@ -23,7 +23,7 @@ from circlepoint._core import (
     SteppedSweep,
     joint_trajectory,
 )
-from circlepoint.strict_yaml import Fields, read_document
+from circlepoint.yaml_io import Fields, describe, load_fields
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -33,6 +33,21 @@ if TYPE_CHECKING:
     Piece = Dwell | SteppedSweep | RaisedCosine | MultiJointMotion
 
 PAPER_PLAN = Path(__file__).parent / "plans" / "paper.yaml"
+
+_PLAN = ("name", "rate_hz", "rest_deg", "rest", "pause", "tests")
+_TEST = ("joint", "static", "dynamic", "free")
+_STATIC = ("span_deg", "span_m", "steps", "dwell", "move", "return")
+_DYNAMIC = ("span_deg", "span_m", "frequency_hz", "duration")
+_FREE = (
+    "amplitude_deg",
+    "amplitude_m",
+    "duration",
+    "frequency_min_hz",
+    "frequency_max_hz",
+    "harmonics",
+    "ramp",
+    "seed",
+)
 
 
 @dataclass(frozen=True)
@@ -93,17 +108,16 @@ def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequenc
         raise InvalidInput(
             f"{len(names)} joint names and {len(prismatic)} joint types; give one of each for every joint"
         )
-    fields = read_document(Path(path))
-    name = fields.text("name", "give the plan a name", default=Path(path).stem)
+    fields = load_fields(path, _PLAN)
+    name = fields.text("name", "a name", default=Path(path).stem)
     sample_rate = fields.number("rate_hz", above=0.0)
     rest = _rest(fields, prismatic)
     pause = fields.number("pause", default=0.5, at_least=0.0)
     pieces: list[Piece] = []
-    for test in fields.mappings("tests", "give a list of tests"):
+    for test in fields.each("tests", "a list of tests", _TEST):
         pieces.extend(_test(test, names, prismatic))
-    fields.done()
     plan = Plan(name=name, sample_rate=sample_rate, rest=rest, pieces=tuple(pieces), pause=pause)
-    _require_feasible(plan, fields.source)
+    _require_feasible(plan, fields.file.path)
     return plan
 
 
@@ -112,52 +126,57 @@ def paper_plan(joint_names: Sequence[str]) -> Plan:
     return load_plan(PAPER_PLAN, joint_names)
 
 
-def _require_feasible(plan: Plan, source: str) -> None:
+def _require_feasible(plan: Plan, path: Path) -> None:
     """Let the core check what a single field cannot show, such as a raised cosine of a fractional number of cycles."""
     for index, piece in enumerate(plan.pieces):
         try:
             joint_trajectory(plan.rest, [piece], 1.0)
         except InvalidInput as error:
-            raise InvalidInput(
-                f"{source}: motion {index + 1} of {len(plan.pieces)} is not possible: {error}"
-            ) from error
+            raise InvalidInput(f"{path}: motion {index + 1} of {len(plan.pieces)} is not possible: {error}") from error
 
 
 def _rest(fields: Fields, prismatic: list[bool]) -> NDArray[np.float64]:
     """Return where the joints rest, rad or m."""
-    key = "rest" if fields.has("rest") else "rest_deg"
-    remedy = f"give one number, or a list of {len(prismatic)}, one a joint (rest_deg in degrees, or rest in rad and m)"
-    value = fields.value(key, remedy)
-    entries = value if isinstance(value, list) else [value] * len(prismatic)
-    if len(entries) != len(prismatic):
-        fields.fail(key, value, remedy)
+    if "rest" in fields and "rest_deg" in fields:
+        fields.fail("rest", "rest_deg is given too; keep one")
+    key = "rest" if "rest" in fields else "rest_deg"
+    need = f"one number, or a list of {len(prismatic)}, one a joint (rest_deg in degrees, or rest in rad and m)"
+    value = fields.value(key, need)
+    if isinstance(value, list) and len(value) != len(prismatic):
+        fields.fail(key, f"is {describe(value)}, must be {need}")
     if key == "rest_deg" and any(prismatic):
-        fields.fail(key, value, "the arm has prismatic joints: give rest, in rad and m")
-    scale = math.pi / 180.0 if key == "rest_deg" else 1.0
-    return np.array([scale * fields.checked_number(key, entry, remedy) for entry in entries])
+        fields.fail(key, f"is {describe(value)}, but the arm has prismatic joints: give rest, in rad and m")
+    if isinstance(value, list):
+        rest = np.array([fields.checked((key, index), entry) for index, entry in enumerate(value)])
+    else:
+        rest = np.full(len(prismatic), fields.checked((key,), value))
+    return rest if key == "rest" else np.radians(rest)
 
 
 def _test(test: Fields, names: list[str], prismatic: list[bool]) -> Iterator[Piece]:
     """Yield the motions of one entry of the list of tests, in the order they are run."""
-    if test.has("free"):
-        free = test.mapping("free", "give the motion's fields")
-        test.done()
-        yield _free(free, prismatic)
+    if "free" in test:
+        for key in ("joint", "static", "dynamic"):
+            if key in test:
+                test.fail(key, "does not go with free, a motion of all joints; make it a test of its own")
+        yield _free(test.fields("free", _FREE), prismatic)
         return
-    joint = test.text("joint", "give a joint's name, or all")
+    joint = test.text("joint", "a joint's name, or all")
     if joint not in (*names, "all"):
-        test.fail("joint", joint, f"the arm's joints are {', '.join(names)}; or say all")
-    if not (test.has("static") or test.has("dynamic")):
-        test.fail("", joint, "give static, dynamic or both for the joint, or free for a motion of all joints")
-    tests = [(kind, test.mapping(kind, "give the motion's fields")) for kind in ("static", "dynamic") if test.has(kind)]
-    test.done()
+        test.fail("joint", f"is {joint!r}; the arm's joints are {', '.join(names)}; or say all")
+    tests = [
+        (motion, test.fields(kind, allowed))
+        for kind, motion, allowed in (("static", _static, _STATIC), ("dynamic", _dynamic, _DYNAMIC))
+        if kind in test
+    ]
+    if not tests:
+        test.fail("joint", f"is {joint!r}, but nothing is to be done; give static, dynamic or both")
     chosen = range(len(names)) if joint == "all" else [names.index(joint)]
-    for index in chosen:
-        for kind, fields in tests:
-            yield _static(fields, index, prismatic) if kind == "static" else _dynamic(fields, index, prismatic)
     for _, fields in tests:
-        _allow_both_units(fields, "span", [prismatic[index] for index in chosen])
-        fields.done()
+        _require_units_used(fields, "span", [prismatic[index] for index in chosen])
+    for index in chosen:
+        for motion, fields in tests:
+            yield motion(fields, index, prismatic)
 
 
 def _static(fields: Fields, joint: int, prismatic: list[bool]) -> SteppedSweep:
@@ -183,7 +202,8 @@ def _dynamic(fields: Fields, joint: int, prismatic: list[bool]) -> RaisedCosine:
 
 def _free(fields: Fields, prismatic: list[bool]) -> MultiJointMotion:
     default = MultiJointMotion(duration=1.0, amplitude=np.zeros(len(prismatic)))
-    motion = MultiJointMotion(
+    _require_units_used(fields, "amplitude", prismatic)
+    return MultiJointMotion(
         duration=fields.number("duration", above=0.0),
         amplitude=np.array([_length(fields, "amplitude", is_prismatic=slides) for slides in prismatic]),
         frequency_min=fields.number("frequency_min_hz", default=default.frequency_min, above=0.0),
@@ -192,9 +212,6 @@ def _free(fields: Fields, prismatic: list[bool]) -> MultiJointMotion:
         ramp=fields.number("ramp", default=default.ramp, above=0.0),
         seed=fields.integer("seed", default=default.seed, at_least=0),
     )
-    _allow_both_units(fields, "amplitude", prismatic)
-    fields.done()
-    return motion
 
 
 def _length(fields: Fields, name: str, *, is_prismatic: bool) -> float:
@@ -204,9 +221,9 @@ def _length(fields: Fields, name: str, *, is_prismatic: bool) -> float:
     return math.radians(fields.number(f"{name}_deg"))
 
 
-def _allow_both_units(fields: Fields, name: str, prismatic: Sequence[bool]) -> None:
+def _require_units_used(fields: Fields, name: str, prismatic: Sequence[bool]) -> None:
     """Refuse a range given for a kind of joint that does not take part."""
-    if fields.has(f"{name}_m") and not any(prismatic):
-        fields.fail(f"{name}_m", fields.value(f"{name}_m", ""), f"no prismatic joint takes part; give {name}_deg only")
-    if fields.has(f"{name}_deg") and all(prismatic):
-        fields.fail(f"{name}_deg", fields.value(f"{name}_deg", ""), f"no revolute joint takes part; give {name}_m only")
+    if f"{name}_m" in fields and not any(prismatic):
+        fields.fail(f"{name}_m", f"no prismatic joint takes part; give {name}_deg only")
+    if f"{name}_deg" in fields and all(prismatic):
+        fields.fail(f"{name}_deg", f"no revolute joint takes part; give {name}_m only")

@@ -295,7 +295,9 @@ def _optional_columns(
 def _assemble(logs: Sequence[_Log]) -> tuple[list[circlepoint.Recording], list[circlepoint.ClockAlignment]]:
     recordings: list[circlepoint.Recording] = []
     alignments: list[circlepoint.ClockAlignment] = []
-    sensors = iter([log for log in logs if log.joint_positions is None])
+    sensors = iter(
+        [(log, log.specific_force) for log in logs if log.joint_positions is None and log.specific_force is not None]
+    )
     for log in logs:
         if log.joint_positions is None:
             continue
@@ -310,20 +312,22 @@ def _assemble(logs: Sequence[_Log]) -> tuple[list[circlepoint.Recording], list[c
                 )
             )
             continue
-        recording, alignment = _on_two_clocks(log, next(sensors))
+        recording, alignment = _on_two_clocks(log, log.joint_positions, *next(sensors))
         recordings.append(recording)
         alignments.append(alignment)
     return recordings, alignments
 
 
-def _on_two_clocks(joints: _Log, sensor: _Log) -> tuple[circlepoint.Recording, circlepoint.ClockAlignment]:
+def _on_two_clocks(
+    joints: _Log, joint_positions: FloatArray, sensor: _Log, specific_force: FloatArray
+) -> tuple[circlepoint.Recording, circlepoint.ClockAlignment]:
     try:
-        alignment = circlepoint.align_clocks(joints.time, joints.joint_positions, sensor.time, sensor.specific_force)
+        alignment = circlepoint.align_clocks(joints.time, joint_positions, sensor.time, specific_force)
         recording = circlepoint.make_recording(
             joints.time,
-            joints.joint_positions,
+            joint_positions,
             sensor.time,
-            sensor.specific_force,
+            specific_force,
             alignment.clock,
             angular_velocity=sensor.angular_velocity,
             temperature=sensor.temperature,

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 import circlepoint
 from circlepoint.document import (
@@ -21,8 +19,12 @@ from circlepoint.document import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
     from circlepoint.arm import Arm
-    from circlepoint.calibrate import DhConversion
+    from circlepoint.calibration import DhConversion
 
 LINE_COORDINATES = ("d1", "d2", "p1", "p2")
 WORKSPACE_CONFIGURATIONS = 200
@@ -32,6 +34,7 @@ LARGEST_CONDITION = 1e15
 
 def result_document(
     arm: Arm,
+    *,
     method: str,
     gravity: float,
     segmentation: circlepoint.Segmentation,
@@ -177,9 +180,7 @@ def _dh_entry(
         "rows": rows,
         "base": plain(dh.chain.base),
         "tool": plain(dh.chain.tool),
-        "near_parallel": [
-            [arm.joints[pair.first].name, arm.joints[pair.first + 1].name] for pair in dh.near_parallel
-        ],
+        "near_parallel": [[arm.joints[pair.first].name, arm.joints[pair.first + 1].name] for pair in dh.near_parallel],
     }
 
 
@@ -195,7 +196,11 @@ def _covariance_entry(arm: Arm, joints: circlepoint.JointCalibration, estimated:
 
 def _identifiability_entry(arm: Arm, joints: circlepoint.JointCalibration) -> Document:
     conditions = [fit.condition_number for fit in joints.fits if fit.condition_number > 0.0]
-    missing = [f"{joint.name} line: {estimate.reason}" for joint, estimate in zip(arm.joints, joints.joints, strict=True) if estimate.axis is None]
+    missing = [
+        f"{joint.name} line: {estimate.reason}"
+        for joint, estimate in zip(arm.joints, joints.joints, strict=True)
+        if estimate.axis is None
+    ]
     return {
         "rank": sum(fit.rank for fit in joints.fits),
         "parameters": sum(fit.parameters for fit in joints.fits),

@@ -5,9 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 
 from circlepoint._core import AccelerometerSpecification, InvalidInput
-from circlepoint.strict_yaml import read_document
+from circlepoint.yaml_io import load_fields
 
 PRESETS = Path(__file__).parent / "sensors"
+
+_FIELDS = (
+    "bias_std",
+    "scale_std",
+    "misalignment_std",
+    "percussion_distance",
+    "percussion_distance_std",
+    "second_order_std",
+    "noise_std",
+    "range",
+)
 
 
 def sensor_names() -> list[str]:
@@ -41,9 +52,9 @@ def load_sensor(name_or_path: str | Path) -> AccelerometerSpecification:
             f"sensor {str(name_or_path)!r} is neither a preset nor a file; "
             f"the presets are {', '.join(sensor_names())}, or give the path of a YAML file of the same form"
         )
-    fields = read_document(path)
-    fields.text("name", "give the sensor a name", default=path.stem)
-    specification = AccelerometerSpecification(
+    fields = load_fields(path, ("name", *_FIELDS))
+    fields.text("name", "a name", default=path.stem)
+    return AccelerometerSpecification(
         bias_std=fields.number("bias_std", at_least=0.0),
         scale_std=fields.number("scale_std", at_least=0.0),
         misalignment_std=fields.number("misalignment_std", default=0.0, at_least=0.0),
@@ -53,5 +64,3 @@ def load_sensor(name_or_path: str | Path) -> AccelerometerSpecification:
         noise_std=fields.number("noise_std", at_least=0.0),
         range=fields.number("range", default=0.0, at_least=0.0),
     )
-    fields.done()
-    return specification

@@ -2,17 +2,19 @@
 
 import math
 import re
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn, TypeVar
 
 import yaml
 
 from circlepoint._core import InvalidInput
 
-# YAML 1.1 reads 1e-3 (no point) as text; people write it all the same.
-_FLOAT_WITHOUT_POINT = re.compile(r"[-+]?\d[\d_]*[eE][-+]?\d+")
+# YAML 1.1 reads 1e-3 (no point) and 1.0e3 (no sign) as text; people write them all the same.
+_EXPONENTIAL = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+
+Choice = TypeVar("Choice")
 
 
 @dataclass(frozen=True)
@@ -44,19 +46,125 @@ class YamlFile:
 
     def number(self, where: tuple[Hashable, ...], value: Any) -> float:
         """`value` as a finite float."""
-        if isinstance(value, str) and _FLOAT_WITHOUT_POINT.fullmatch(value.strip()):
+        if isinstance(value, str) and _EXPONENTIAL.fullmatch(value.strip()):
             value = float(value)
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.error(where, f"is {describe(value)}, must be a number{_as_number(value)}")
-        if not math.isfinite(value):
-            raise self.error(where, f"is {value}, must be a finite number")
-        return float(value)
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        if not math.isfinite(number):
+            raise self.error(where, f"is {describe(value)}, must be a finite number")
+        return number
 
     def text(self, where: tuple[Hashable, ...], value: Any) -> str:
         """`value` as a non-empty string."""
         if not isinstance(value, str) or not value.strip():
             raise self.error(where, f"is {describe(value)}, must be a non-empty text")
         return value
+
+
+@dataclass(frozen=True)
+class Fields:
+    """A mapping in a YAML file, read field by field; the fields it may have are known from the start."""
+
+    file: YamlFile
+    where: tuple[Hashable, ...]
+    values: dict[str, Any] = field(repr=False)
+
+    @classmethod
+    def of(cls, file: YamlFile, where: tuple[Hashable, ...], mapping: Any, allowed: Iterable[str]) -> "Fields":
+        """Return the fields of `mapping`, which stands at `where`; refuse any that is not allowed."""
+        return cls(file, where, file.only_keys(where, mapping, allowed))
+
+    def __contains__(self, key: str) -> bool:
+        """Whether the field is there."""
+        return key in self.values
+
+    def fail(self, key: str, message: str) -> NoReturn:
+        """Raise InvalidInput about a field."""
+        raise self.file.error((*self.where, key), message)
+
+    def value(self, key: str, need: str) -> Any:
+        """Return the field's value as it is; when it is missing, the error says that `need` is needed."""
+        if key not in self.values:
+            self.fail(key, f"is missing; {need} is needed")
+        return self.values[key]
+
+    def given(self, key: str) -> bool:
+        """Whether the field is there and not left empty."""
+        return self.values.get(key) is not None
+
+    def number(
+        self,
+        key: str,
+        *,
+        default: float | None = None,
+        at_least: float = -math.inf,
+        above: float = -math.inf,
+        need: str | None = None,
+    ) -> float:
+        """Return a finite number within its bounds."""
+        if default is not None and key not in self:
+            return default
+        value = self.value(key, need or _finite(at_least, above))
+        return self.checked((key,), value, at_least=at_least, above=above)
+
+    def checked(
+        self, place: tuple[Hashable, ...], value: Any, *, at_least: float = -math.inf, above: float = -math.inf
+    ) -> float:
+        """Return a value of this mapping, at `place` within it, as a finite number within its bounds."""
+        number = self.file.number((*self.where, *place), value)
+        if number < at_least or number <= above:
+            message = f"is {describe(value)}, must be {_finite(at_least, above)}"
+            raise self.file.error((*self.where, *place), message)
+        return number
+
+    def choice(self, key: str, known: Mapping[str, Choice]) -> Choice:
+        """Return what the field's value stands for."""
+        need = " or ".join(known)
+        value = self.value(key, need)
+        if not isinstance(value, str) or value not in known:
+            self.fail(key, f"is {describe(value)}, must be {need}")
+        return known[value]
+
+    def integer(self, key: str, *, default: int | None = None, at_least: int) -> int:
+        """Return a whole number of at least a bound."""
+        if default is not None and key not in self:
+            return default
+        need = f"a whole number of at least {at_least}"
+        value = self.value(key, need)
+        if isinstance(value, bool) or not isinstance(value, int) or value < at_least:
+            self.fail(key, f"is {describe(value)}, must be {need}")
+        return value
+
+    def text(self, key: str, need: str, *, default: str | None = None) -> str:
+        """Return a text that is not empty."""
+        if default is not None and key not in self:
+            return default
+        return self.file.text((*self.where, key), self.value(key, need))
+
+    def fields(self, key: str, allowed: Iterable[str]) -> "Fields":
+        """Return a nested mapping."""
+        allowed = list(allowed)
+        value = self.value(key, f"a mapping with the keys {', '.join(allowed)}")
+        return Fields.of(self.file, (*self.where, key), value, allowed)
+
+    def each(self, key: str, need: str, allowed: Iterable[str]) -> Iterator["Fields"]:
+        """Return the mappings of a list, one after the other."""
+        allowed = list(allowed)
+        value = self.value(key, need)
+        if not isinstance(value, list) or not value:
+            self.fail(key, f"is {describe(value)}, must be {need}")
+        for index, item in enumerate(value):
+            yield Fields.of(self.file, (*self.where, key, index), item, allowed)
+
+
+def load_fields(path: str | Path, allowed: Iterable[str]) -> Fields:
+    """Read the fields of a YAML file; raises as `load_yaml`, and for a field that is not allowed."""
+    file = load_yaml(path)
+    return Fields.of(file, (), file.data, allowed)
 
 
 def load_yaml(path: str | Path) -> YamlFile:
@@ -129,6 +237,12 @@ def describe(value: Any) -> str:
         return f"a list of {len(value)}"
     shown = repr(value)
     return shown if len(shown) <= 60 else shown[:57] + "..."
+
+
+def _finite(at_least: float, above: float) -> str:
+    if above > -math.inf:
+        return f"a finite number above {above:g}"
+    return f"a finite number of at least {at_least:g}" if at_least > -math.inf else "a finite number"
 
 
 def _as_number(value: Any) -> str:

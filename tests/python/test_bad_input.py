@@ -97,7 +97,7 @@ BAD_ARMS = {
     "not YAML": ("name: [two\njoints: 3\n", ["line", "not valid YAML"]),
     "empty": ("", ["empty"]),
     "a list": ("- name\n", ["top level"]),
-    "no joints": ("name: two\n", ["`joints`", "missing"]),
+    "no joints": ("name: two\n", ["line 1", "joints: is missing", "base to tip"]),
     "joints not a list": ("name: two\njoints: 6\n", ["line 2", "joints", "list"]),
     "unknown key": ("name: two\nlinks: 3\njoints: [{name: a, type: revolute}]\n", ["line 2", "links", "unknown key"]),
     "key twice": ("name: two\nname: three\njoints: [{name: a, type: revolute}]\n", ["line 2", "name", "line 1"]),
@@ -111,11 +111,17 @@ BAD_ARMS = {
         ["joints[0].limits", "degrees", "-2.967"],
     ),
     "limits reversed": ("name: two\njoints: [{name: a, type: revolute, limits: [1, -1]}]\n", ["limits", "not below"]),
-    "negative velocity": ("name: two\njoints: [{name: a, type: revolute, velocity: -1}]\n", ["velocity", "-1"]),
+    "negative velocity": (
+        "name: two\njoints: [{name: a, type: revolute, velocity: -1}]\n",
+        ["velocity: is -1", "above 0"],
+    ),
     "text for a number": ("name: two\njoints: [{name: a, type: revolute, velocity: fast}]\n", ["velocity", "'fast'"]),
     "number of rows": (
-        "name: two\njoints: [{name: a, type: revolute}]\ndh: {convention: standard, rows: []}\n",
-        ["dh.rows", "0 rows", "1 joints"],
+        (
+            "name: two\njoints: [{name: a, type: revolute}]\n"
+            "dh: {convention: standard, rows: [{a: 0, alpha: 0, d: 0, theta: 0}, {a: 0, alpha: 0, d: 0, theta: 0}]}\n"
+        ),
+        ["line 3", "dh.rows", "2 rows", "1 joints"],
     ),
     "convention": (
         "name: two\njoints: [{name: a, type: revolute}]\ndh: {convention: denavit, rows: []}\n",
@@ -137,11 +143,18 @@ BAD_ARMS = {
     ),
     "missing parameter": (
         "name: a\njoints: [{name: a, type: revolute}]\ndh: {convention: standard, rows: [{a: 0, alpha: 0, d: 0}]}\n",
-        ["dh.rows[0]", "`theta`"],
+        ["line 3", "dh.rows[0].theta: is missing", "0.0 where it is zero"],
     ),
     "counts": (
         "name: a\njoints: [{name: a, type: revolute}]\nencoder: {counts_per_revolution: 0}\n",
-        ["counts_per_revolution", "greater than zero"],
+        ["line 3", "counts_per_revolution: is 0", "above 0"],
+    ),
+    "one joint's counts": (
+        (
+            "name: a\njoints: [{name: a, type: revolute}, {name: b, type: revolute}]\n"
+            "encoder: {counts_per_revolution: [null, -1]}\n"
+        ),
+        ["counts_per_revolution[1]: is -1", "above 0"],
     ),
     "counts of other joints": (
         "name: a\njoints: [{name: a, type: revolute}]\nencoder: {counts_per_revolution: [1, 2]}\n",
@@ -167,6 +180,7 @@ def test_bad_arm_says_where_and_what_to_do(name, tmp_path, capsys):
 BAD_MAPS = {
     "unknown key": ("speed: v\n", ["line 1", "speed", "unknown key"]),
     "unknown unit": ("units: {a: gal}\n", ["units.a", "'gal'", "m/s^2"]),
+    "unit that is a list": ("units: {a: [g]}\n", ["line 1", "units.a", "a list of 1", "m/s^2"]),
     "column not there": ("q1: pan\n", ["q1", "'pan'", "no file has", "ax"]),
     "list of the wrong length": ("q: [q1]\n", ["list of 2 column names"]),
     "one column twice": ("q: [q1, q1]\n", ["'q1'", "two quantities"]),

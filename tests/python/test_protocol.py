@@ -60,19 +60,28 @@ def test_a_plan_says_units_by_the_kind_of_joint(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("rest_deg: 0\ntests: []", "rate_hz is missing; give a finite number above 0"),
-        ("rate_hz: 0\nrest_deg: 0\ntests: []", "rate_hz is 0; "),
-        ("rate_hz: 100\nrest_deg: [1, 2]\ntests: []", r"rest_deg is \[1, 2\]; give one number, or a list of 7"),
-        ("rate_hz: 100\nrest_deg: 0\ntests: []", r"tests is \[\]; give a list of tests"),
-        ("rate_hz: 100\nrest_deg: 0\ntests: [{joint: elbow, static: {}}]", r"tests\[0\].joint is 'elbow'; .*joint1"),
-        ("rate_hz: 100\nrest_deg: 0\ntests: [{joint: joint1}]", r"tests\[0\] is 'joint1'; give static"),
+        ("rest_deg: 0\ntests: []", "1: rate_hz: is missing; a finite number above 0 is needed"),
+        ("rate_hz: 0\nrest_deg: 0\ntests: []", "1: rate_hz: is 0, must be a finite number above 0"),
+        (
+            "rate_hz: 100\nrest_deg: [1, 2]\ntests: []",
+            "2: rest_deg: is a list of 2, must be one number, or a list of 7",
+        ),
+        ("rate_hz: 100\nrest_deg: 0\ntests: []", "3: tests: is a list of 0, must be a list of tests"),
+        (
+            "rate_hz: 100\nrest_deg: 0\ntests: [{joint: elbow, static: {}}]",
+            r"3: tests\[0\].joint: is 'elbow'; .*joint1",
+        ),
+        (
+            "rate_hz: 100\nrest_deg: 0\ntests: [{joint: joint1}]",
+            r"3: tests\[0\].joint: is 'joint1', but .*; give static",
+        ),
         (
             "rate_hz: 100\nrest_deg: 0\ntests: [{joint: all, static: {steps: 3, span_deg: 9, stop: 1}}]",
-            r"tests\[0\].static.stop is 1; no such field here; the fields are .*dwell",
+            r"3: tests\[0\].static.stop: unknown key; the keys known here are .*dwell",
         ),
         (
             "rate_hz: 100\nrest_deg: 0\ntests: [{joint: all, static: {steps: 2.5, span_deg: 9}}]",
-            r"tests\[0\].static.steps is 2.5; give a whole number",
+            r"3: tests\[0\].static.steps: is 2.5, must be a whole number of at least 2",
         ),
         (
             "rate_hz: 100\nrest_deg: 0\ntests: [{joint: all, dynamic: {frequency_hz: 1, span_deg: 9, duration: 2.5}}]",
@@ -80,16 +89,22 @@ def test_a_plan_says_units_by_the_kind_of_joint(tmp_path):
         ),
         (
             "rate_hz: 100\nrest_deg: 0\ntests: [{joint: joint2, dynamic: {frequency_hz: 1, span_m: 9, duration: 5}}]",
-            r"tests\[0\].dynamic.span_deg is missing",
+            r"3: tests\[0\].dynamic.span_m: no prismatic joint takes part; give span_deg only",
         ),
         (
             "rate_hz: 100\nrest_deg: 0\nspeed: 3\ntests: [{free: {duration: 9, amplitude_deg: 5}}]",
-            "speed is 3; no such",
+            "3: speed: unknown key; the keys known here are name, rate_hz",
         ),
+        ("rate_hz: 100\nrest_deg: 0\nrest: 0\ntests: []", "3: rest: rest_deg is given too; keep one"),
+        (
+            "rate_hz: 100\nrest_deg: 0\ntests:\n- free: {duration: 9, amplitude_deg: 5}\n  joint: joint1",
+            r"5: tests\[0\].joint: does not go with free",
+        ),
+        ("rate_hz: 100\nrate_hz: 200", "2: rate_hz: was given on line 1 already"),
     ],
 )
-def test_a_malformed_plan_names_file_field_value_and_remedy(tmp_path, text, message):
-    with pytest.raises(cp.InvalidInput, match=f"plan.yaml: {message}"):
+def test_a_malformed_plan_names_file_line_field_value_and_remedy(tmp_path, text, message):
+    with pytest.raises(cp.InvalidInput, match=f"plan.yaml(, line |: ){message}"):
         load_plan(plan_file(tmp_path, text), NAMES)
 
 

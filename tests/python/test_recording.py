@@ -88,3 +88,9 @@ def test_bursts_of_a_real_module_clock_are_believed_and_gaps_split(shared_data):
     assert report.rule == cp.StampRule.believed
     assert report.sample_rate == pytest.approx(100, rel=0.06)
     assert max(gap.length for gap in report.gaps if not gap.filled) == pytest.approx(0.316282)
+
+
+def test_equal_ranges_are_one_key_and_no_range_equals_something_else():
+    assert {cp.IndexRange(2, 5): "a"}[cp.IndexRange(2, 5)] == "a"
+    assert cp.IndexRange(2, 5) != cp.IndexRange(2, 6)
+    assert cp.IndexRange(2, 5) != (2, 5)

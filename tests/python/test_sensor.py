@@ -73,19 +73,23 @@ def test_an_unknown_sensor_lists_the_presets():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("bias_std: -1.0\nscale_std: 0\nnoise_std: 0", "bias_std is -1.0; give a finite number of at least 0"),
-        ("scale_std: 0\nnoise_std: 0", "bias_std is missing"),
-        ("bias_std: 1e-3\nscale_std: 0\nnoise_std: 0", "bias_std is '1e-3'.* write 1.0e-3"),
-        ("bias_std: 0\nscale_std: 0\nnoise_std: 0\ncolour: red", "colour is 'red'; no such field"),
-        ("bias_std: true\nscale_std: 0\nnoise_std: 0", "bias_std is True"),
-        ("- 1", r"the document is \[1\]; give a mapping"),
-        ("a: [", "not YAML"),
+        ("bias_std: -1.0\nscale_std: 0\nnoise_std: 0", "1: bias_std: is -1.0, must be a finite number of at least 0"),
+        ("scale_std: 0\nnoise_std: 0", "1: bias_std: is missing; a finite number of at least 0 is needed"),
+        ("bias_std: 0\nnoise_std: '0'\nscale_std: 0", "2: noise_std: is '0', must be a number"),
+        ("bias_std: 0\nscale_std: .inf\nnoise_std: 0", "2: scale_std: is inf, must be a finite number"),
+        (
+            "bias_std: 0\nscale_std: 0\nnoise_std: 0\ncolour: red",
+            "4: colour: unknown key; the keys known here are name, bias_std",
+        ),
+        ("bias_std: true\nscale_std: 0\nnoise_std: 0", "1: bias_std: is True, must be a number"),
+        ("- 1", ": its top level is a list of 1, must be a mapping"),
+        ("a: [", "1, column 5: is not valid YAML"),
     ],
 )
-def test_a_malformed_sensor_file_names_file_field_value_and_remedy(tmp_path, text, message):
+def test_a_malformed_sensor_file_names_file_line_field_value_and_remedy(tmp_path, text, message):
     path = tmp_path / "mine.yaml"
     path.write_text(text)
-    with pytest.raises(cp.InvalidInput, match=f"mine.yaml: {message}"):
+    with pytest.raises(cp.InvalidInput, match=f"mine.yaml(, line )?{message}"):
         load_sensor(path)
 
 
@@ -94,3 +98,11 @@ def test_a_file_of_the_presets_form_loads(tmp_path):
     path.write_text("bias_std: 0.01\nscale_std: 0.001\nnoise_std: 0.002\n")
     assert load_sensor(path).bias_std == 0.01
     assert load_sensor(str(path)).range == 0.0
+
+
+@pytest.mark.parametrize("number", ["1e-3", "1.0e-3", "1E-3", ".1e-2", "0.001"])
+def test_numbers_are_read_as_people_write_them(tmp_path, number):
+    path = tmp_path / "mine.yaml"
+    path.write_text(f"bias_std: {number}\nscale_std: 0\nnoise_std: 1.0e1\n")
+    assert load_sensor(path).bias_std == 0.001
+    assert load_sensor(path).noise_std == 10.0

@@ -11,7 +11,11 @@ from typing import TYPE_CHECKING
 from circlepoint._core import InvalidInput
 from circlepoint.arm import Arm, load_arm
 from circlepoint.atomic import require_writable_folder
+from circlepoint.calibration import Calibration, calibrate
 from circlepoint.cli.options import Subparsers, add_command, add_recording, numbers, progress
+from circlepoint.document import with_reading, write_document
+from circlepoint.recording_io import LoadedRecording, read_recording
+from circlepoint.sensor_presets import load_sensor
 
 if TYPE_CHECKING:
     import argparse
@@ -19,8 +23,6 @@ if TYPE_CHECKING:
     from typing import Any
 
     import circlepoint
-    from circlepoint.calibrate import Calibration
-    from circlepoint.recording_io import LoadedRecording
 
 METHODS = ("joint", "position", "velocity")
 
@@ -73,12 +75,10 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from circlepoint.recording_io import read_recording  # noqa: PLC0415  (keeps `circlepoint --help` quick)
-
     require_writable_folder(options.out)
     arm = load_arm(options.arm)
     _require_reference(options.reference_configuration, arm)
-    sensor = _sensor(options.sensor)
+    sensor = None if options.sensor is None else load_sensor(options.sensor)
     with progress(3, quiet=options.json) as begin:
         begin("reading")
         loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
@@ -97,23 +97,12 @@ def run(options: argparse.Namespace) -> int:
     return 1 if missing else 0
 
 
-def _sensor(name: str | None) -> circlepoint.AccelerometerSpecification | None:
-    if name is None:
-        return None
-    from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
-
-    return load_sensor(name)
-
-
 def _estimate(
     options: argparse.Namespace,
     loaded: LoadedRecording,
     arm: Arm,
     sensor: circlepoint.AccelerometerSpecification | None,
 ) -> Calibration:
-    from circlepoint.calibrate import calibrate  # noqa: PLC0415
-    from circlepoint.document import with_reading  # noqa: PLC0415
-
     calibration = calibrate(
         loaded.recording,
         arm,
@@ -126,8 +115,7 @@ def _estimate(
 
 
 def _write(folder: Path, calibration: Calibration) -> None:
-    from circlepoint.document import write_document  # noqa: PLC0415
-    from circlepoint.report import write_report  # noqa: PLC0415
+    from circlepoint.report import write_report  # noqa: PLC0415  (matplotlib is slow to load)
 
     folder.mkdir(parents=True, exist_ok=True)
     write_report(folder, calibration)

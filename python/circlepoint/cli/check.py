@@ -8,14 +8,13 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from circlepoint.arm import load_arm
+from circlepoint.check import JointCheck, LogCheck, check_recording
 from circlepoint.cli.options import Subparsers, add_command, add_recording
 from circlepoint.document import finding_entries
+from circlepoint.recording_io import LogFile, read_recording
 
 if TYPE_CHECKING:
     import argparse
-
-    from circlepoint.check import JointCheck, LogCheck
-    from circlepoint.recording_io import LogFile
 
 _TEXT = """\
 Show what is in a log: sample rate, jitter and gaps, clipping, what the sensor reads at rest, the encoders' steps, the
@@ -45,9 +44,6 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    from circlepoint.check import check_recording  # noqa: PLC0415  (keeps `circlepoint --help` quick)
-    from circlepoint.recording_io import read_recording  # noqa: PLC0415
-
     arm = load_arm(options.arm)
     loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
     result = check_recording(loaded, arm, gravity=options.gravity)

@@ -7,11 +7,10 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from circlepoint._core import InvalidInput
+from circlepoint._core import STANDARD_GRAVITY, InvalidInput
 from circlepoint.arm import Arm, load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
 from circlepoint.cli.options import Subparsers, add_command, positive, progress
-from circlepoint._core import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import circlepoint

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import re
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from circlepoint.atomic import write_atomically
 from circlepoint.report.axes_figure import draw_axes
 from circlepoint.report.figures import draw_overview, draw_test
 from circlepoint.report.page import Drawings, TestDrawing, render_page
@@ -16,6 +14,7 @@ from circlepoint.report.style import png_bytes, svg_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from circlepoint.report.inputs import CalibrationResult, Document
 
@@ -65,24 +64,8 @@ def write_report(directory: Path, calibration: CalibrationResult, truth: Mapping
     figures = directory / "figures"
     figures.mkdir(parents=True, exist_ok=True)
     for name, content in files.items():
-        _replace(figures / name, content)
+        write_atomically(figures / name, content)
     for stale in figures.iterdir():
         if stale.name not in files and _own_figures.fullmatch(stale.name):
             stale.unlink()
-    _replace(directory / "report.html", page.encode())
-
-
-def _replace(path: Path, content: bytes) -> None:
-    """Write a file so that a reader finds the old one or the new one, never a part."""
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        mask = os.umask(0)
-        os.umask(mask)
-        temporary.chmod(0o666 & ~mask)
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    write_atomically(directory / "report.html", page.encode())

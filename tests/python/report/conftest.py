@@ -225,10 +225,23 @@ def calibration():
 
 
 @pytest.fixture
-def brief_calibration(calibration):
+def brief_calibration():
     """The same with one drawn test, where a test looks at something else."""
+    return build_brief_calibration()
+
+
+def build_brief_calibration():
+    calibration = build_calibration()
     calibration.fits = calibration.fits[:1]
     return calibration
+
+
+@pytest.fixture(scope="session")
+def brief_report(tmp_path_factory):
+    """The folder of the brief calibration's report, without a truth; to be read only."""
+    directory = tmp_path_factory.mktemp("brief")
+    write_report(directory, build_brief_calibration())
+    return directory
 
 
 @pytest.fixture

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 import circlepoint
-from circlepoint.arm import Arm
-from circlepoint.document import Document
 from circlepoint.nominal import joint_types, nominal_dh_chain
 from circlepoint.result_document import result_document
 from circlepoint.sensor_presets import load_sensor
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from circlepoint.arm import Arm
+    from circlepoint.document import Document
 
 Method = Literal["joint", "position", "velocity"]
 DhConversion = circlepoint.StandardDhConversion | circlepoint.ModifiedDhConversion
@@ -135,7 +139,8 @@ def calibrate(
     method : {"joint", "position", "velocity"}
         Regression joint by joint, or one of the two methods of Canepa, Hollerbach and Boelen (1994).
     sensor : AccelerometerSpecification, optional
-        What is known of the sensor. Without it a wide range of kinds is allowed for, and the readings at rest say how wide.
+        What is known of the sensor. Without it a wide range of kinds is allowed for, and the readings at rest say how
+        wide.
     gravity : float
         Local magnitude, m/s^2.
     reference_configuration : array_like, shape (n,), optional
@@ -163,7 +168,9 @@ def calibrate(
         chain=chain,
         dh=dh,
         fits=tuple(NamedFit(arm.joints[fit.joint].name, fit) for fit in joints.fits),
-        document=result_document(arm, method, gravity, segmentation, joints, chain, dh),
+        document=result_document(
+            arm, method=method, gravity=gravity, segmentation=segmentation, joints=joints, chain=chain, dh=dh
+        ),
     )
 
 
