@@ -1,4 +1,4 @@
-// Calibrate an arm from one log: simulate it, find the tests in it, estimate every joint's axis with its uncertainty.
+// Calibrate an arm from one log: simulate it, find the tests in it, estimate every axis with its uncertainty.
 #include <cstdio>
 
 #include "circlepoint/chain/screws_to_dh.hpp"
@@ -35,9 +35,9 @@ int main() {
     const cp::JointAxis& axis = joint.axis.value();
     const cp::Line& line = axis.screw.line;
     const Eigen::Vector4d error = cp::local_coordinates(truth.axes[static_cast<std::size_t>(joint.joint)].line, line);
-    std::printf("%5d  %8.4f %8.4f %8.4f  %7.2f %7.2f %7.2f  %6.3f %6.3f  %7.3f %7.3f\n", static_cast<int>(joint.joint) + 1,
-                line.direction.x(), line.direction.y(), line.direction.z(), 1e3 * line.point.x(), 1e3 * line.point.y(),
-                1e3 * line.point.z(), 1e3 * axis.direction_std(), 1e3 * axis.point_std(), 1e3 * error.head<2>().norm(),
-                1e3 * error.tail<2>().norm());
+    std::printf("%5d  %8.4f %8.4f %8.4f  %7.2f %7.2f %7.2f  %6.3f %6.3f  %7.3f %7.3f\n",
+                static_cast<int>(joint.joint) + 1, line.direction.x(), line.direction.y(), line.direction.z(),
+                1e3 * line.point.x(), 1e3 * line.point.y(), 1e3 * line.point.z(), 1e3 * axis.direction_std(),
+                1e3 * axis.point_std(), 1e3 * error.head<2>().norm(), 1e3 * error.tail<2>().norm());
   }
 }

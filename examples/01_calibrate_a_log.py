@@ -1,4 +1,4 @@
-"""Calibrate an arm from one log: simulate it, find the tests in it, estimate every joint's axis with its uncertainty."""
+"""Calibrate an arm from one log: simulate it, find the tests in it, estimate every axis with its uncertainty."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-// From acceleration to displacement: a zero-phase filter removes vibration, integrating twice turns a bias into metres.
+// From acceleration to displacement: a zero-phase filter removes vibration, integrating makes much of a bias.
 #include <cmath>
 #include <cstdio>
 #include <numbers>

@@ -13,7 +13,8 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 template <class Conversion>
 void show(const char* name, const Conversion& dh, const cp::ScrewChain& arm) {
-  std::printf("%-10s      a mm   alpha deg        d mm   theta deg   (* free: a choice, not determined by the axes)\n", name);
+  std::printf("%-10s      a mm   alpha deg        d mm   theta deg   (* free: a choice, not determined by the axes)\n",
+              name);
   for (cp::Index i = 0; i < dh.chain.size(); ++i) {
     const cp::DhRow& row = dh.chain.rows[static_cast<std::size_t>(i)];
     const Eigen::Vector4d values(1e3 * row.a, row.alpha / degree, 1e3 * row.d, row.theta / degree);
@@ -24,12 +25,13 @@ void show(const char* name, const Conversion& dh, const cp::ScrewChain& arm) {
     std::puts("");
   }
   for (const cp::NearParallel& pair : dh.near_parallel) {
-    std::printf("axes %d and %d enclose %.2f mrad: d is far away and ill conditioned\n", static_cast<int>(pair.first) + 1,
-                static_cast<int>(pair.first) + 2, 1e3 * pair.angle);
+    std::printf("axes %d and %d enclose %.2f mrad: d is far away and ill conditioned\n",
+                static_cast<int>(pair.first) + 1, static_cast<int>(pair.first) + 2, 1e3 * pair.angle);
   }
   cp::RandomSource random(1);
   const cp::SamplesX poses = cp::SamplesX::NullaryExpr(1000, arm.size(), [&] { return random.uniform(-3.0, 3.0); });
-  const cp::SamplesX difference = cp::forward_kinematics_rows(dh.chain, poses) - cp::forward_kinematics_rows(arm, poses);
+  const cp::SamplesX difference =
+      cp::forward_kinematics_rows(dh.chain, poses) - cp::forward_kinematics_rows(arm, poses);
   std::printf("same poses within 1e-9: %s\n", difference.cwiseAbs().maxCoeff() < 1e-9 ? "True" : "False");
 }
 
