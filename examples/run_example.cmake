@@ -1,5 +1,6 @@
 # Runs an example and compares what it prints, word by word: numbers may differ by two units of their last digit.
 # cmake -DPROGRAM=... -DEXPECTED=... -P run_example.cmake
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND "${PROGRAM}" OUTPUT_VARIABLE printed ERROR_VARIABLE problem RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ended with ${status}: ${problem}")
