@@ -5,6 +5,7 @@
 #include <string>
 
 #include "circlepoint/core/error.hpp"
+#include "circlepoint/core/types.hpp"
 #include "circlepoint/geometry/joint_axis.hpp"
 
 namespace circlepoint {
