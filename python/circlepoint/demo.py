@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 import circlepoint
 from circlepoint.arm import Arm, load_arm
 from circlepoint.atomic import write_atomically
-from circlepoint.calibrate import calibrate
+from circlepoint.calibration import calibrate
 from circlepoint.document import Document, write_document
 from circlepoint.nominal import joint_types
 from circlepoint.protocol import paper_plan

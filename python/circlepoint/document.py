@@ -81,6 +81,7 @@ def joint_entry(
     covariance: ArrayLike,
     basis: ArrayLike,
     tests: Sequence[Mapping[str, Any]] = (),
+    nominal: Mapping[str, Any] | None = None,
 ) -> Document:
     """Return an entry of ``joints`` whose axis was estimated.
 
@@ -102,6 +103,8 @@ def joint_entry(
         The vectors u and v the local coordinates are along.
     tests : sequence of mapping
         What was recorded of this joint.
+    nominal : mapping, optional
+        Where the arm's description puts the axis.
     """
     prismatic = joint_type == "prismatic"
     return {
@@ -115,6 +118,7 @@ def joint_entry(
         "covariance_basis": plain(basis),
         "reason": None,
         "tests": plain(list(tests)),
+        "nominal": plain(nominal),
     }
 
 

@@ -17,6 +17,7 @@ from circlepoint.document import (
     missing_joint_entry,
     plain,
 )
+from circlepoint.nominal import nominal_chain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,6 +81,7 @@ def _joint_entries(
     arm: Arm, segmentation: circlepoint.Segmentation, joints: circlepoint.JointCalibration
 ) -> list[Document]:
     entries = []
+    nominal = _nominal_entries(arm, joints)
     for joint, estimate in zip(arm.joints, joints.joints, strict=True):
         fit = joints.fits[estimate.fit] if estimate.fit >= 0 else None
         tests = [
@@ -102,8 +104,30 @@ def _joint_entries(
                 covariance=estimate.axis.covariance,
                 basis=circlepoint.tangent_basis(line.direction).T,
                 tests=tests,
+                nominal=nominal.get(estimate.joint),
             )
         )
+    return entries
+
+
+def _nominal_entries(arm: Arm, joints: circlepoint.JointCalibration) -> dict[int, Document]:
+    """Return where the arm's description puts the estimated lines, its frame fitted to them; two lines at least."""
+    found = {e.joint: e.axis.screw.line for e in joints.joints if e.axis is not None}
+    if arm.dh is None or len(found) < 2:
+        return {}
+    chain = nominal_chain(arm, joints.reference_configuration)
+    lines = {joint: chain.axes[joint].line for joint in found}
+    placement = circlepoint.align_lines(list(found.values()), list(lines.values()))
+    entries = {}
+    for joint, line in found.items():
+        placed = circlepoint.transform(placement, lines[joint])
+        difference = circlepoint.local_coordinates(line, placed)
+        entries[joint] = {
+            "direction_sensor": placed.direction,
+            "point_sensor": placed.point,
+            "direction_difference": float(np.hypot(*difference[:2])),
+            "point_difference": float(np.hypot(*difference[2:])),
+        }
     return entries
 
 

@@ -92,8 +92,13 @@ def run(options: argparse.Namespace) -> int:
     else:
         _print_tables(document, options.out)
     missing = [joint for joint in document["joints"] if joint["direction_sensor"] is None]
-    for joint in missing:
-        print(f"circlepoint: {joint['name']}: not estimated: {joint['reason']}", file=sys.stderr)
+    if missing:
+        names = ", ".join(joint["name"] for joint in missing)
+        print(
+            f"circlepoint: {len(missing)} of {len(document['joints'])} joints not estimated: {names}; the reason of each, "
+            f"and what to record, is in the table and in {options.out / 'calibration.json'}",
+            file=sys.stderr,
+        )
     return 1 if missing else 0
 
 
@@ -126,6 +131,15 @@ def _print_tables(document: Mapping[str, Any], folder: Path) -> None:
     from circlepoint.report import format_dh_table, format_joint_table  # noqa: PLC0415
 
     print(f"{format_joint_table(document)}\n{format_dh_table(document)}")
+    offset, rate = document["sensor"]["clock_offset"], document["sensor"]["clock_rate"]
+    if offset is not None and rate is not None:
+        print(
+            f"two clocks: sensor time = {offset['estimate']:.4f} ± {offset['std']:.4f} s "
+            f"+ {rate['estimate']:.6f} ± {rate['std']:.6f} x joint time"
+        )
+    for combination in document["identifiability"]["unseen"]:
+        if not any(combination.startswith(f"{joint['name']} line:") for joint in document["joints"] if joint["reason"]):
+            print(f"hardly seen: {combination}")
     for finding in document["findings"]:
         print(f"note: {finding['message']}")
     print(f"written: {folder / 'calibration.json'}, {folder / 'report.html'}")

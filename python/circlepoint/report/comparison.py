@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from circlepoint.report.inputs import Document, is_estimated, vector
+from circlepoint.report.inputs import Document, is_estimated, number, vector
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -39,6 +39,16 @@ def line_errors(document: Document, truth: Mapping[str, Any] | None) -> list[Lin
             distance = float(np.linalg.norm(np.subtract(point, true_point)))
         errors.append(LineError(angle, distance))
     return errors
+
+
+def nominal_differences(document: Document) -> list[LineError] | None:
+    """Return how far each estimated axis lies from where the arm's description puts it; None without any."""
+    entries = [joint.get("nominal") or {} for joint in document["joints"]]
+    if not any(entries):
+        return None
+    return [
+        LineError(number(entry.get("direction_difference")), number(entry.get("point_difference"))) for entry in entries
+    ]
 
 
 def largest(values: Sequence[float | None]) -> tuple[float, int] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from circlepoint.report.comparison import line_errors
+from circlepoint.report.comparison import line_errors, nominal_differences
 from circlepoint.report.figures import position_unit
 from circlepoint.report.html import Column, escaped, numbers, table
 from circlepoint.report.inputs import CalibrationResult, Document, is_estimated, number, vector
@@ -54,6 +54,10 @@ def joint_table(document: Document, truth: Mapping[str, Any] | None) -> str:
         errors = line_errors(document, truth)
         columns.append(Column("mrad", numbers([milli(e.direction) for e in errors]), group="true error"))
         columns.append(Column("mm", numbers([milli(e.point) for e in errors]), group="true error"))
+    nominal = nominal_differences(document)
+    if nominal is not None:
+        columns.append(Column("mrad", numbers([milli(e.direction) for e in nominal]), group="off nominal"))
+        columns.append(Column("mm", numbers([milli(e.point) for e in nominal]), group="off nominal"))
     missing = [
         f"<li><strong>{escaped(joint['name'])}</strong> is not estimated. "
         f"{escaped(joint.get('reason') or 'No reason was given.')}</li>"

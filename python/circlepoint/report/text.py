@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from circlepoint.report.comparison import line_errors
+from circlepoint.report.comparison import line_errors, nominal_differences
 from circlepoint.report.inputs import Document, is_estimated, number, vector
 from circlepoint.report.rounding import (
     ABSENT,
@@ -51,6 +51,10 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
         errors = line_errors(document, truth)
         columns.append(["error", "mrad", *align_decimals([milli(error.direction) for error in errors])])
         columns.append(["", "mm", *align_decimals([milli(error.point) for error in errors])])
+    nominal = nominal_differences(document)
+    if nominal is not None:
+        columns.append(["off nominal", "mrad", *align_decimals([milli(entry.direction) for entry in nominal])])
+        columns.append(["", "mm", *align_decimals([milli(entry.point) for entry in nominal])])
     lines = _layout(columns, header_rows=2)
     lines += [
         f"{joint['name']}: not estimated. {joint.get('reason') or 'No reason was given.'}"
