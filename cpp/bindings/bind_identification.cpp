@@ -372,6 +372,7 @@ void bind_arm(py::module_& m) {
       .def_readonly("condition_number", &TestFit::condition_number)
       .def_readonly("gravity_share", &TestFit::gravity_share)
       .def_readonly("samples", &TestFit::samples)
+      .def_readonly("knocks", &TestFit::knocks, "dynamic samples left out around residuals beyond six robust deviations")
       .def_readonly("iterations", &TestFit::iterations)
       .def_readonly("converged", &TestFit::converged)
       .def_readonly("time", &TestFit::time, "(M,) s")

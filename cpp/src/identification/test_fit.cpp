@@ -47,6 +47,26 @@ Matrix15 score_covariance(const Eigen::Ref<const Regressors>& x, const Eigen::Re
   return blocks > 5 ? Matrix15(sum * (static_cast<double>(blocks) / static_cast<double>(blocks - 5))) : Matrix15(2.0 * sum);
 }
 
+// 1 for samples to keep, 0 around knocks: residuals beyond six robust standard deviations of their channel, and half a filter
+// length either side. Where more than a fifth would go they are no knocks but the model's failure, and all are kept.
+Eigen::VectorXd without_knocks(const Samples3& residual, Index margin) {
+  const Index count = residual.rows();
+  Eigen::VectorXd kept = Eigen::VectorXd::Ones(count);
+  for (int channel = 0; channel < 3; ++channel) {
+    const Eigen::VectorXd magnitude = residual.col(channel).cwiseAbs();
+    Eigen::VectorXd sorted = magnitude;
+    std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
+    const double limit = 6.0 * 1.4826 * sorted[count / 2];
+    for (Index i = 0; i < count; ++i) {
+      if (magnitude[i] > limit) {
+        const Index begin = std::max<Index>(0, i - margin);
+        kept.segment(begin, std::min(count, i + margin + 1) - begin).setZero();
+      }
+    }
+  }
+  return kept.mean() > 0.8 ? kept : Eigen::VectorXd(Eigen::VectorXd::Ones(count));
+}
+
 // How much wider sums of these residuals are than white noise of the same variance would make them.
 double correlation_factor(const Matrix15& score, const Matrix5& information, double variance) {
   const Matrix5 ridge = 1e-12 * information.diagonal().asDiagonal().toDenseMatrix();
@@ -155,7 +175,12 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
     throw NotIdentifiable("only still poses of it were found, no motion: they show the axis' direction but not its place; "
                           "record a motion of this joint alone, for example 0.5 Hz over 150 degrees for 6 s");
   }
-  const TestRegression problem = make_regression(samples, chain, filter_order);
+  TestRegression problem = make_regression(samples, chain, filter_order);
+  const TestRegression whole = problem;
+  if (noise.kept.size() == problem.dynamic_readings.rows()) {
+    problem.dynamic_regressors.array().colwise() *= noise.kept.array();
+    problem.dynamic_readings.array().colwise() *= noise.kept.array();
+  }
   TestNoise used = noise;
   if (used.static_std <= 0.0) {
     used.static_std = linear_residual(problem.static_regressors, problem.static_readings, 3);
@@ -178,17 +203,23 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
 
   const JointModelFit solution = fit_joint_model(weighted, prior);
   FittedTest fitted;
-  record_fit(fitted.fit, samples, problem, solution.model);
+  record_fit(fitted.fit, samples, whole, solution.model);
+  const Samples3 residual = problem.dynamic_readings - problem.dynamic_regressors * solution.model.coefficients();
+  const double kept_share = noise.kept.size() > 0 ? noise.kept.mean() : 1.0;
+  fitted.fit.dynamic_noise_std = std::max(rms(residual, 12.0) / std::sqrt(kept_share), 1e-6);
+  fitted.fit.knocks = static_cast<Index>(std::lround((1.0 - kept_share) * static_cast<double>(residual.rows())));
   fitted.fit.iterations = solution.iterations;
   fitted.fit.converged = solution.converged;
   describe_information(fitted.fit, solution.data_information);
   fitted.fit.gravity_share = solution.model.gravity.norm() / prior.gravity;
 
   // Sandwich: static part and prior as assumed, dynamic part as its residuals show.
-  const Matrix15 score = score_covariance(problem.dynamic_regressors, fitted.fit.measured - fitted.fit.modelled, problem.sample_rate);
+  const Matrix15 score = score_covariance(problem.dynamic_regressors, residual, problem.sample_rate);
   const double variance = fitted.fit.dynamic_noise_std * fitted.fit.dynamic_noise_std;
   fitted.noise = {fitted.fit.static_noise_std, fitted.fit.dynamic_noise_std,
-                  correlation_factor(score, moving.information, variance)};
+                  correlation_factor(score, moving.information, variance),
+                  without_knocks(fitted.fit.measured - fitted.fit.modelled,
+                                 static_cast<Index>(std::lround(0.5 * problem.sample_rate / samples.cutoff)))};
   fitted.fit.correlation_factor = fitted.noise.correlation_factor;
   Matrix15 assumed = Matrix15::Zero();
   for (int channel = 0; channel < 3; ++channel) {

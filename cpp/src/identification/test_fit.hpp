@@ -15,6 +15,7 @@ struct TestNoise {
   double static_std = 0.0;         // m/s^2, of a dwell's mean; 0: not known yet
   double dynamic_std = 0.0;        // m/s^2, of a filtered sample; 0: not known yet
   double correlation_factor = 1.0;
+  Eigen::VectorXd kept;            // (M) 1, or 0 for dynamic samples left out as knocks; empty: all kept
 };
 
 struct FittedTest {

@@ -64,6 +64,7 @@ struct TestFit {
   double condition_number = 0.0;       ///< of the scaled information matrix, data alone
   double gravity_share = 0.0;          ///< |up-gravity orthogonal to the axis| / g
   Index samples = 0;
+  Index knocks = 0;                    ///< dynamic samples left out around residuals beyond six robust deviations
   int iterations = 0;
   bool converged = false;
   Eigen::VectorXd time;                ///< (M) s, dynamic samples
