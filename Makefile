@@ -57,6 +57,14 @@ lint: install .venv/dev.stamp
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# Errors under the paper's noise model, 100 seeds a figure; fails where a figure exceeds its limit.
+accuracy: install
+	$(BIN)/python bench/python/paper_noise.py
+
+bench: system
+	cmake --workflow --preset bench
+	build/bench/bench/circlepoint_bench
+
 # The type stub of the compiled core; after every change of the bindings.
 stub: install .venv/dev.stamp
 	$(BIN)/python tests/python/core_stub.py python/circlepoint/_core.pyi

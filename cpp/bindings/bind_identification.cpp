@@ -311,7 +311,8 @@ docs/method, section 3.
       .def_readonly("noise_std", &SensorFromGravity::noise_std, "m/s^2")
       .def_readonly("residual_rms", &SensorFromGravity::residual_rms, "m/s^2");
   m.def("fit_sensor_from_gravity", &fit_sensor_from_gravity, py::arg("dwell_specific_force").noconvert(),
-        py::arg("specification"), py::arg("gravity") = standard_gravity, py::arg("adapt_prior") = false, release_gil(), R"(
+        py::arg("specification"), py::arg("gravity") = standard_gravity, py::arg("adapt_prior") = false,
+        py::arg("dwell_noise_std") = 0.0, release_gil(), R"(
 Bias, scale, misalignment and second-order error from |f| = g at rest, with a prior.
 
 Parameters
@@ -324,6 +325,8 @@ gravity : float
     Local magnitude, m/s^2.
 adapt_prior : bool
     Let the dwells set the prior's common width.
+dwell_noise_std : float
+    Noise of a dwell's mean by the scatter of its own samples, m/s^2: the least that is assumed.
 
 Returns
 -------

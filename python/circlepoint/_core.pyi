@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_clocks', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -1411,9 +1411,9 @@ class JointModel:
         (3,) m, from the axis to the sensor
         """
     @property
-    def percussion_distance(self) -> float:
+    def percussion_distance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m
+        (3,) m, of each channel
         """
 class JointModelPrior:
     """
@@ -1469,14 +1469,14 @@ class JointModelFit:
     def converged(self) -> bool:
         ...
     @property
-    def data_information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[10, 10]"]:
+    def data_information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[12, 12]"]:
         """
-        (10, 10) data alone
+        (12, 12) data alone
         """
     @property
-    def information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[10, 10]"]:
+    def information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[12, 12]"]:
         """
-        (10, 10) data and prior
+        (12, 12) data and prior
         """
     @property
     def iterations(self) -> int:
@@ -1489,9 +1489,9 @@ class SensorFromGravity:
     Static sensor errors from the magnitude of gravity.
     """
     @property
-    def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[9, 9]"]:
+    def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[12, 12]"]:
         """
-        (9, 9) of bias, scale, misalignment
+        (12, 12) of bias, scale, misalignment, second order
         """
     @property
     def noise_std(self) -> float:
@@ -1643,6 +1643,11 @@ class TestFit:
         0-based
         """
     @property
+    def knocks(self) -> int:
+        """
+        dynamic samples left out around residuals beyond six robust deviations
+        """
+    @property
     def measured(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
         """
         (M, 3) m/s^2, filtered and corrected
@@ -1664,9 +1669,9 @@ class TestFit:
     def parameters(self) -> int:
         ...
     @property
-    def percussion_distance_std(self) -> float:
+    def percussion_distance_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m
+        (3,) m
         """
     @property
     def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -1746,14 +1751,14 @@ class JointCalibration:
     def passes(self) -> int:
         ...
     @property
-    def percussion_distance(self) -> float:
+    def percussion_distance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m
+        (3,) m, of each channel
         """
     @property
-    def percussion_distance_std(self) -> float:
+    def percussion_distance_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m
+        (3,) m
         """
     @property
     def reference_configuration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -2083,6 +2088,27 @@ def align_clocks(joint_time: typing.Annotated[numpy.typing.NDArray[numpy.float64
         Sizes differ, values are not finite, or time does not advance.
     NotIdentifiable
         No motion from which a delay could be measured; the message says what to record.
+    """
+def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.Sequence[Line], length: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+    """
+    The rigid transform that brings lines closest to their counterparts, such as nominal axes to calibrated ones.
+
+    Parameters
+    ----------
+    target, source : list of Line
+        In correspondence, m.
+    length : float
+        m; weighs a radian of direction against a metre of position.
+
+    Returns
+    -------
+    (4, 4) float64
+        T_target_source; the smallest displacement where the lines leave freedom.
+
+    Raises
+    ------
+    InvalidInput
+        Different numbers of lines, or none.
     """
 def analyse_timeline(time: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], options: TimelineOptions = ...) -> TimelineReport:
     """
@@ -2560,7 +2586,7 @@ def fit_joint_model(weighted: RegressionStatistics, prior: JointModelPrior = ...
     -------
     JointModelFit
         Parameters of the information: direction (2), gravity (2), lever (2) in tangent_basis(axis), constant (3),
-        percussion distance.
+        percussion distances (3).
 
     Raises
     ------
@@ -2571,9 +2597,9 @@ def fit_joint_model(weighted: RegressionStatistics, prior: JointModelPrior = ...
     ----------
     docs/method, section 3.
     """
-def fit_sensor_from_gravity(dwell_specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], specification: AccelerometerSpecification, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, adapt_prior: bool = False) -> SensorFromGravity:
+def fit_sensor_from_gravity(dwell_specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], specification: AccelerometerSpecification, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, adapt_prior: bool = False, dwell_noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> SensorFromGravity:
     """
-    Bias, scale and misalignment from |f| = g at rest, with a prior.
+    Bias, scale, misalignment and second-order error from |f| = g at rest, with a prior.
 
     Parameters
     ----------
@@ -2585,6 +2611,8 @@ def fit_sensor_from_gravity(dwell_specific_force: typing.Annotated[numpy.typing.
         Local magnitude, m/s^2.
     adapt_prior : bool
         Let the dwells set the prior's common width.
+    dwell_noise_std : float
+        Noise of a dwell's mean by the scatter of its own samples, m/s^2: the least that is assumed.
 
     Returns
     -------

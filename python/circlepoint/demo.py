@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 import circlepoint
 from circlepoint.arm import Arm, load_arm
@@ -23,6 +23,9 @@ from circlepoint.recording_files import write_recording
 from circlepoint.report import format_dh_table, format_joint_table, write_report
 from circlepoint.sensor_presets import load_sensor
 from circlepoint.truth import end_point_error, truth_at, truth_document
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 ARM_FILE = Path(__file__).parent / "arms" / "sarcos.yaml"
 SENSOR = "qa700"
@@ -122,6 +125,8 @@ def run(out: Path) -> int:
     if calibration.chain is not None:
         error = end_point_error(truth, calibration.chain, arm)
         predicted = calibration.document["end_point"]["rms"]
-        print(f"end-point over the workspace: {1e3 * error:.3f} mm rms off the truth, {1e3 * predicted:.3f} mm predicted")
+        print(
+            f"end-point over the workspace: {1e3 * error:.3f} mm rms off the truth, {1e3 * predicted:.3f} mm predicted"
+        )
     print(f"written: {out}/ (open {out / 'report.html'})")
     return 0 if calibration.document["complete"] else 1

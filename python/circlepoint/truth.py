@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 import circlepoint
-from circlepoint.arm import Arm
-from circlepoint.document import Document
 from circlepoint.result_document import workspace
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from circlepoint.arm import Arm
+    from circlepoint.document import Document
 
 
 def truth_document(

@@ -55,7 +55,7 @@ def a_document(*, complete=True):
             "bias": estimate_entry(np.zeros(3), np.ones(3)),
             "scale": None,
             "misalignment": None,
-            "percussion_distance": estimate_entry(np.full(3, 0.0182), np.full(3, 1e-4)),
+            "percussion_distance": estimate_entry(0.0182, 1e-4),
             "clock_offset": estimate_entry(0.07, 1e-4),
             "clock_rate": estimate_entry(1.0033, 1e-6),
         },

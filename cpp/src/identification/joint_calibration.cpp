@@ -32,6 +32,16 @@ std::string one_decimal(double value) {
 
 std::string joint_name(Index joint) { return "joint " + std::to_string(joint + 1); }
 
+// Still poses that differ by more than encoders and control loops make them.
+Index distinct_angles(Eigen::VectorXd angles) {
+  std::sort(angles.begin(), angles.end());
+  Index distinct = angles.size() > 0 ? 1 : 0;
+  for (Index i = 1; i < angles.size(); ++i) {
+    distinct += angles[i] - angles[i - 1] > 3.0 * degree ? 1 : 0;
+  }
+  return distinct;
+}
+
 void validate(const Recording& recording, const JointCalibrationOptions& options) {
   const Index joints = recording.joints();
   require(options.joint_types.empty() || static_cast<Index>(options.joint_types.size()) == joints,
@@ -56,6 +66,20 @@ Samples3 dwell_means(const Segmentation& segmentation) {
     means.row(i) = segmentation.dwells[static_cast<std::size_t>(i)].specific_force;
   }
   return means;
+}
+
+// Of a dwell's mean, by the scatter of its own samples; the median dwell.
+double dwell_noise(const Segmentation& segmentation) {
+  std::vector<double> noise;
+  for (const StaticDwell& dwell : segmentation.dwells) {
+    noise.push_back(dwell.specific_force_std.norm() / std::sqrt(3.0 * static_cast<double>(std::max<Index>(1, dwell.samples.size()))));
+  }
+  if (noise.empty()) {
+    return 0.0;
+  }
+  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return *middle;
 }
 
 // Of a joint's tests the one with the widest motion; the others differ in the configuration of the other joints.
@@ -325,10 +349,11 @@ void name_unseen(JointCalibration& result, const Segmentation& segmentation) {
                               " degrees of gravity, so a tilt of it reads like a bias; tilt the base, or estimate the bias "
                               "from tests of the other joints");
     }
-    if (fit.dwell_positions.size() < 3) {
-      result.unseen.push_back(joint_name(fit.joint) + " direction x centre: " + std::to_string(fit.dwell_positions.size()) +
-                              " still poses only, and in motion cos(angle) looks like acceleration; hold the joint still at "
-                              "more angles, 1 s each");
+    if (const Index angles = distinct_angles(fit.dwell_positions); angles < 3) {
+      result.unseen.push_back(joint_name(fit.joint) + " direction x centre: still at " + std::to_string(angles) +
+                              (angles == 1 ? " angle" : " angles") +
+                              " only, and in motion cos(angle) looks like acceleration; hold the joint still at more angles, "
+                              "1 s each");
     }
     if (std::max(test.motion_span, test.dwell_span) < 0.5) {
       result.unseen.push_back(joint_name(fit.joint) + " line: it turned by " +
@@ -366,11 +391,16 @@ JointCalibration calibrate_joints(const Recording& recording, const Segmentation
   validate(recording, options);
   const double tolerance = SegmentationOptions{}.configuration_tolerance;
   JointCalibration result;
-  result.sensor =
-      fit_sensor_from_gravity(dwell_means(segmentation), options.sensor, options.gravity, options.adapt_sensor_prior);
+  result.sensor = fit_sensor_from_gravity(dwell_means(segmentation), options.sensor, options.gravity,
+                                          options.adapt_sensor_prior, dwell_noise(segmentation));
   const bool regression = options.method == CalibrationMethod::joint;
   if (!regression) {
-    // The paper's methods take the readings as they are; its subtraction of the static model removes the bias.
+    // The paper's methods take the readings as they are; its subtraction of the static model removes the bias. The whole
+    // error then stays in them: its second moment takes the place of the covariance about an estimate.
+    Eigen::Matrix<double, sensor_errors, 1> left_in;
+    left_in << result.sensor.sensor.bias, result.sensor.sensor.scale, result.sensor.sensor.misalignment,
+        result.sensor.sensor.second_order;
+    result.sensor.covariance += left_in * left_in.transpose();
     result.sensor.sensor = AccelerometerModel{};
   }
   std::vector<JointWork> work = gather_all(recording, segmentation, result.sensor, options);

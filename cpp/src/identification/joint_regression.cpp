@@ -101,8 +101,10 @@ struct PriorResidual {
     }
     residuals[3] = (sqrt(m.gravity.squaredNorm() + along * along + T(1e-12)) - prior.gravity) / prior.gravity_std;
     const double distance_std = std::max(prior.percussion_distance_std, 1e-9);
+    const T mean = m.percussion_distance.sum() / T(3.0);
+    residuals[4] = (mean - prior.percussion_distance) / distance_std;
     for (int k = 0; k < 3; ++k) {
-      residuals[4 + k] = (m.percussion_distance[k] - prior.percussion_distance) / distance_std;
+      residuals[5 + k] = (m.percussion_distance[k] - mean) / std::min(distance_std, channel_spread_std);
     }
     return true;
   }
@@ -170,7 +172,7 @@ JointModelFit solve_from(const Whitened& whitened, const JointModelPrior& prior,
   ceres::Problem problem;
   auto* test = new ceres::AutoDiffCostFunction<WhitenedTest, 15, joint_model_parameters>(
       new WhitenedTest{whitened.whitener, whitened.target, chart});
-  auto* known = new ceres::AutoDiffCostFunction<PriorResidual, 7, joint_model_parameters>(new PriorResidual{prior, chart});
+  auto* known = new ceres::AutoDiffCostFunction<PriorResidual, 8, joint_model_parameters>(new PriorResidual{prior, chart});
   problem.AddResidualBlock(test, nullptr, p.data());
   problem.AddResidualBlock(known, nullptr, p.data());
   ceres::Solver::Options options;
@@ -214,7 +216,7 @@ void describe_at_solution(JointModelFit& fit, const Whitened& whitened, const Jo
     const Eigen::Matrix<double, 5, joint_model_parameters> block = whitened.whitener * fit.jacobian.middleRows<5>(5 * channel);
     fit.data_information += block.transpose() * block;
   }
-  std::array<Jet, 7> residuals;
+  std::array<Jet, 8> residuals;
   PriorResidual{prior, chart}(p.data(), residuals.data());
   fit.information = fit.data_information;
   for (const Jet& residual : residuals) {

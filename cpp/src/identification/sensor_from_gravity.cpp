@@ -40,7 +40,9 @@ Posterior posterior_of(const SensorErrorMatrix& information, const Vector& score
 }  // namespace
 
 SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwell_specific_force,
-                                          const AccelerometerSpecification& specification, double gravity, bool adapt_prior) {
+                                          const AccelerometerSpecification& specification, double gravity, bool adapt_prior,
+                                          double dwell_noise_std) {
+  require(dwell_noise_std >= 0.0, "dwell_noise_std is " + std::to_string(dwell_noise_std) + " m/s^2; give 0 or more");
   require(gravity > 0.0, "gravity is " + std::to_string(gravity) + " m/s^2; give the local magnitude, about 9.8");
   Vector prior;
   prior << Eigen::Vector3d::Constant(specification.bias_std), Eigen::Vector3d::Constant(specification.scale_std),
@@ -76,7 +78,7 @@ SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwel
   for (int i = 0; i < factor_steps; ++i) {
     const double factor = adapt_prior ? 0.003 * std::pow(10.0, 0.05 * i) : 1.0;
     for (int j = 0; j <= 80; ++j) {
-      const double noise = 1e-5 * std::pow(10.0, 0.05 * j);
+      const double noise = std::max(1e-5, dwell_noise_std) * std::pow(10.0, 0.05 * j);
       const Posterior candidate = posterior_of(information, score, squares, count, factor * floor_std, noise);
       if (candidate.log_evidence > best) {
         best = candidate.log_evidence;

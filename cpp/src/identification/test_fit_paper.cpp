@@ -1,6 +1,8 @@
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "circlepoint/core/error.hpp"
+#include "circlepoint/geometry/rigid_transform.hpp"
 #include "circlepoint/identification/axis_direction.hpp"
 #include "circlepoint/identification/center_of_rotation.hpp"
 #include "test_fit.hpp"
@@ -18,6 +20,24 @@ const MotionSamples& widest_motion(const TestSamples& samples) {
   };
   return *std::max_element(samples.motions.begin(), samples.motions.end(),
                            [&](const auto& a, const auto& b) { return travel(a) < travel(b); });
+}
+
+// Derivative of the plane fit's direction, in tangent_basis(z), by the sensor's bias, scale, misalignment and second-order
+// errors: d = -(sum w p p^T)^-1 sum w p (z . df), p the poses in the tangent plane about their mean. A bias moves the plane
+// without turning it.
+Eigen::Matrix<double, 2, sensor_errors> direction_by_sensor(const Eigen::Ref<const Samples3>& poses, const Eigen::VectorXd& weights,
+                                                 const Eigen::Vector3d& z) {
+  Eigen::Matrix<double, Eigen::Dynamic, sensor_errors> along(poses.rows(), 12);
+  along.leftCols<3>() = z.transpose().replicate(poses.rows(), 1);
+  along.middleCols<3>(3) = poses * z.asDiagonal();
+  along.col(6) = z.y() * poses.col(0);
+  along.col(7) = z.z() * poses.col(0);
+  along.col(8) = z.z() * poses.col(1);
+  along.rightCols<3>() = poses.cwiseAbs2() * z.asDiagonal();
+  const Eigen::RowVector3d mean = weights.transpose() * poses / weights.sum();
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> in_plane = (poses.rowwise() - mean) * tangent_basis(z);
+  const Eigen::Matrix2d information = in_plane.transpose() * weights.asDiagonal() * in_plane;
+  return -information.inverse() * (in_plane.transpose() * weights.asDiagonal() * along);
 }
 
 }  // namespace
@@ -63,6 +83,7 @@ FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, do
     direction(1, 0) = -direction(1, 0);
   }
   fitted.fit.noise_covariance.topLeftCorner<2, 2>() = direction;
+  fitted.sensor_jacobian.topRows<2>() = direction_by_sensor(samples.dwell_force, axis.weights, z);
   fitted.fit.noise_covariance.bottomRightCorner<2, 2>() =
       center.point_std * center.point_std * Eigen::Matrix2d::Identity();
   return fitted;

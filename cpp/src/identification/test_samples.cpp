@@ -43,7 +43,8 @@ MotionSamples condition(const Recording& recording, const SingleJointMotion& mot
     samples.specific_force.row(i) =
         sensor.correct(recording.specific_force.row(motion.samples.begin + i).transpose(), Eigen::Vector3d::Zero());
   }
-  const Index run_in = static_cast<Index>(std::lround(rate / cutoff));
+  // A step of acceleration at the edge rings through the low-pass for some 2.5 / cutoff.
+  const Index run_in = std::min(static_cast<Index>(std::lround(2.5 * rate / cutoff)), count / 4);
   samples.trim_begin = motion.from_rest ? 0 : run_in;
   samples.trim_end = motion.to_rest ? 0 : run_in;
   return samples;

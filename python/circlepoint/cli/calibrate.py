@@ -95,8 +95,8 @@ def run(options: argparse.Namespace) -> int:
     if missing:
         names = ", ".join(joint["name"] for joint in missing)
         print(
-            f"circlepoint: {len(missing)} of {len(document['joints'])} joints not estimated: {names}; the reason of each, "
-            f"and what to record, is in the table and in {options.out / 'calibration.json'}",
+            f"circlepoint: {len(missing)} of {len(document['joints'])} joints not estimated: {names}; the reason of "
+            f"each, and what to record, is in the table and in {options.out / 'calibration.json'}",
             file=sys.stderr,
         )
     return 1 if missing else 0

@@ -5,16 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from circlepoint._core import STANDARD_GRAVITY, InvalidInput
-from circlepoint.arm import Arm, load_arm
+from circlepoint.arm import load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
 from circlepoint.cli.options import Subparsers, add_command, positive, progress
-
-if TYPE_CHECKING:
-    import circlepoint
-    from circlepoint.document import Document
 
 _TEXT = """\
 Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,

@@ -56,13 +56,17 @@ struct JointModel {
   [[nodiscard]] Line line() const;
 };
 
+/// m; how far the channels of one sensor may measure from their common distance: they share a housing (assumed).
+inline constexpr double channel_spread_std = 1e-3;
+
 /// What is known beforehand, as means and standard deviations.
 struct JointModelPrior {
   double bias_std = 0.05;                ///< m/s^2, of the bias left in A
   double gravity = standard_gravity;     ///< m/s^2
   double gravity_std = 0.05;             ///< m/s^2, of the magnitude read (scale-factor error included)
-  double percussion_distance = 0.0;      ///< m, the same for every channel
-  double percussion_distance_std = 0.0;  ///< m, of each channel about it; 0 fixes it
+  double percussion_distance = 0.0;      ///< m, the channels' mean
+  double percussion_distance_std = 0.0;  ///< m, of that mean, and of each channel about it where that is less than
+                                         ///< channel_spread_std; 0 fixes all
 };
 
 /// Number of parameters of the model's chart: direction 2, gravity 2, lever 2, constant 3, percussion distances 3.

@@ -29,7 +29,10 @@ struct SensorFromGravity {
 };
 
 /// dwell_specific_force: (K, 3) m/s^2, means of dwells. gravity: m/s^2. Zero dwells return the prior.
+/// dwell_noise_std: m/s^2, noise of a dwell's mean by the scatter of its own samples; the evidence may find more than it,
+/// never less: hardly more dwells than unknowns fit any noise, none at all included.
 SensorFromGravity fit_sensor_from_gravity(const Eigen::Ref<const Samples3>& dwell_specific_force,
-                                          const AccelerometerSpecification& specification, double gravity, bool adapt_prior);
+                                          const AccelerometerSpecification& specification, double gravity, bool adapt_prior,
+                                          double dwell_noise_std = 0.0);
 
 }  // namespace circlepoint

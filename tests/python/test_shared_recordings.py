@@ -1,0 +1,172 @@
+"""Calibration of recordings nobody here made: arms of a physics engine against truth, real arms against nominal."""
+
+import json
+
+import numpy as np
+import pytest
+
+import circlepoint
+from circlepoint.arm import load_arm
+from circlepoint.calibration import calibrate
+from circlepoint.cli import main
+from circlepoint.nominal import nominal_chain
+from circlepoint.recording_io import read_recording
+
+DEGREE = np.pi / 180
+
+
+def calibrated(folder):
+    arm = load_arm(folder / "arm.yaml")
+    return calibrate(read_recording([folder / "log.csv"], arm).recording, arm)
+
+
+def true_chain(folder, reference_configuration):
+    """The engine's lines, in the sensor frame at the given configuration."""
+    truth = json.loads((folder / "truth.json").read_text())
+    axes = [
+        circlepoint.ScrewAxis(
+            type=circlepoint.JointType.revolute,
+            line=circlepoint.make_line(np.array(joint["direction_sensor"]), np.array(joint["point_sensor"])),
+        )
+        for joint in truth["joints"]
+    ]
+    chain = circlepoint.ScrewChain(axes, np.array(truth["reference_configuration"]))
+    return circlepoint.rebase(chain, np.array(reference_configuration))
+
+
+def line_errors(result, truth):
+    """(n, 4) local coordinates of the true lines at the estimated ones."""
+    return np.array(
+        [
+            circlepoint.local_coordinates(estimate.axis.screw.line, axis.line)
+            for estimate, axis in zip(result.joints.joints, truth.axes, strict=True)
+        ]
+    )
+
+
+# Reached: 0.013 mrad and 0.011 mm, 0.31 and 0.19, 0.49 and 0.58. The requirement for a QA700 is 3 mrad and 6 mm.
+@pytest.mark.parametrize(
+    ("name", "axis_bound", "line_bound"),
+    [
+        ("physics-arm7-sweeps-qa700", 0.1e-3, 0.1e-3),
+        ("physics-arm6-sweeps-mems", 1e-3, 1e-3),
+        ("physics-arm7-sweeps-coarse", 2e-3, 2e-3),
+    ],
+)
+def test_lines_of_an_arm_swept_in_a_physics_engine_are_within_their_uncertainty(
+    shared_data, name, axis_bound, line_bound
+):
+    result = calibrated(shared_data / name)
+    assert result.document["complete"]
+    errors = line_errors(result, true_chain(shared_data / name, result.joints.reference_configuration))
+    std = np.array([np.sqrt(np.diag(estimate.axis.covariance)) for estimate in result.joints.joints])
+    assert np.abs(errors / std).max() < 4.0
+    assert np.linalg.norm(errors[:, :2], axis=1).max() < axis_bound
+    assert np.linalg.norm(errors[:, 2:], axis=1).max() < line_bound
+
+
+def test_end_points_of_an_arm_swept_in_a_physics_engine_are_within_the_predicted_spread(shared_data):
+    folder = shared_data / "physics-arm7-sweeps-qa700"
+    result = calibrated(folder)
+    reference = result.joints.reference_configuration
+    truth = true_chain(folder, reference)
+    poses = reference + np.random.default_rng(1).uniform(-np.pi, np.pi, (200, 7))
+    errors = (
+        circlepoint.forward_kinematics(result.chain, poses)[:, :3, 3]
+        - circlepoint.forward_kinematics(truth, poses)[:, :3, 3]
+    )
+    rms = np.sqrt(np.mean(np.sum(errors**2, axis=1)))
+    assert rms < 3.0 * result.document["end_point"]["rms"]
+    assert rms < 0.2e-3
+
+
+@pytest.mark.parametrize("name", ["physics-arm6-free-qa700", "physics-arm7-free-ideal"])
+def test_no_line_is_invented_where_all_joints_move_at_once(shared_data, name):
+    result = calibrated(shared_data / name)
+    assert not result.document["complete"]
+    assert result.document["covariance"] is None
+    for joint in result.document["joints"]:
+        assert joint["direction_sensor"] is None
+        assert joint["point_sensor"] is None
+        assert "never moves alone" in joint["reason"]
+
+
+def run_two_clocks(folder, out):
+    arguments = [str(folder / "joints.csv"), str(folder / "sensor.csv"), "--arm", str(folder / "arm.yaml")]
+    status = main(["calibrate", *arguments, "--out", str(out)])
+    return status, json.loads((out / "calibration.json").read_text())
+
+
+@pytest.fixture(scope="module")
+def real_arm(shared_data, tmp_path_factory):
+    """Exit status and document of the real arm that moved two of its joints alone."""
+    return run_two_clocks(shared_data / "real-ur5-imu-6", tmp_path_factory.mktemp("ur5") / "result")
+
+
+def test_real_arm_gives_the_joints_it_moved_alone_and_reasons_for_the_others(real_arm):
+    status, document = real_arm
+    assert status == 1
+    assert not document["complete"]
+    assert [joint["direction_sensor"] is not None for joint in document["joints"]] == [True] + [False] * 4 + [True]
+    assert all("never moves alone" in joint["reason"] for joint in document["joints"][1:5])
+    names = [joint["name"] for joint in document["joints"]]
+    assert document["covariance"]["parameters"] == [
+        f"{names[joint]}.{coordinate}" for joint in (0, 5) for coordinate in ("d1", "d2", "p1", "p2")
+    ]
+
+
+def test_real_arms_two_clocks_are_brought_together(real_arm):
+    sensor = real_arm[1]["sensor"]
+    assert sensor["clock_offset"]["estimate"] == pytest.approx(0.07, abs=0.01)
+    assert sensor["clock_rate"]["estimate"] == pytest.approx(1.0033, abs=3e-4)
+    assert 0.0 < sensor["clock_offset"]["std"] < 0.01
+    assert 0.0 < sensor["clock_rate"]["std"] < 3e-4
+
+
+def test_real_arms_sensor_sits_beside_its_last_axis_where_it_was_mounted(real_arm):
+    last = real_arm[1]["joints"][5]
+    assert abs(last["direction_sensor"][2]) > np.cos(2 * DEGREE)
+    lever = -np.array(last["point_sensor"])
+    assert np.linalg.norm(lever[:2] - [0.013, 0.0045]) < 3e-3
+
+
+def test_real_arms_first_and_last_axis_lie_to_each_other_as_the_maker_says(shared_data, real_arm):
+    document = real_arm[1]
+    arm = load_arm(shared_data / "real-ur5-imu-6" / "arm.yaml")
+    nominal = nominal_chain(arm, document["reference_configuration"])
+    measured = [
+        circlepoint.make_line(np.array(joint["direction_sensor"]), np.array(joint["point_sensor"]))
+        for joint in (document["joints"][0], document["joints"][5])
+    ]
+    covariance = np.array(document["covariance"]["matrix"])
+
+    def relation(lines):
+        normal = circlepoint.common_normal(lines[0], lines[1], np.zeros(3))
+        return np.array([abs(normal.angle), normal.distance])
+
+    expected = relation([nominal.axes[0].line, nominal.axes[5].line])
+    step = 1e-6
+    jacobian = np.empty((2, 8))
+    for k in range(8):
+        nudge = np.zeros((2, 4))
+        nudge.flat[k] = step
+        plus = [circlepoint.retract(line, local) for line, local in zip(measured, nudge, strict=True)]
+        minus = [circlepoint.retract(line, -local) for line, local in zip(measured, nudge, strict=True)]
+        jacobian[:, k] = (relation(plus) - relation(minus)) / (2 * step)
+    std = np.sqrt(np.diag(jacobian @ covariance @ jacobian.T))
+    angle, distance = np.abs(relation(measured) - expected)
+    assert angle < 4 * std[0]
+    assert angle < 1.5 * DEGREE
+    assert distance < 4 * std[1]
+    assert distance < 0.015
+
+
+def test_nothing_is_invented_of_a_real_arm_that_moved_all_its_joints_at_once(shared_data, tmp_path):
+    status, document = run_two_clocks(shared_data / "real-ur5-imu-8", tmp_path / "result")
+    assert status == 1
+    assert not document["complete"]
+    assert document["dh"] is None
+    assert document["end_point"] is None
+    for joint in document["joints"]:
+        assert joint["direction_sensor"] is None
+        assert "never moves" in joint["reason"]
