@@ -153,7 +153,7 @@ def _draw_motion(upper: Axes, lower: Sequence[Axes], fit: TestFit) -> None:
         panel.plot(t, values, color=colour, linewidth=0.7)
         panel.tick_params(labelbottom=panel is lower[-1], bottom=panel is lower[-1])
         panel.spines["bottom"].set_visible(panel is lower[-1])
-        _centre(panel, residual, 2)
+        _centre(panel, _without_knocks(residual), 2)
     upper.tick_params(labelbottom=False)
     upper.set_title("motion")
     upper.set_ylabel("specific force, m/s²")
@@ -191,6 +191,12 @@ def _align_labels(panels: Sequence[Axes]) -> None:
 def _residual_scale(residual: Array) -> tuple[Array, str]:
     largest = float(np.abs(residual).max(initial=0.0))
     return (residual, "m/s²") if largest >= 1.0 else (1e3 * residual, "mm/s²")
+
+
+def _without_knocks(residual: Array) -> Array:
+    """Return the residuals within the range that shows their noise: a knock may leave the panel."""
+    usual = float(np.quantile(np.abs(residual), 0.98)) if residual.size else 0.0
+    return np.clip(residual, -3.0 * usual, 3.0 * usual)
 
 
 def _centre(panel: Axes, residual: Array, ticks: int) -> None:

@@ -13,7 +13,7 @@ _methods = {
     "whole-arm": "whole-arm estimate: all axes, gravity and the sensor's errors in one fit",
     "position": "position method: static sweep for the axis, twice integrated acceleration for its centre",
     "velocity": "velocity method: static sweep for the axis, once integrated acceleration for its centre",
-    "joint": "joint by joint: one regression for each test, no coupling between joints",
+    "joint": "joint by joint: one regression for each test, other joints' yielding corrected by their encoders",
 }
 
 

@@ -54,7 +54,7 @@ def joint_table(document: Document, truth: Mapping[str, Any] | None) -> str:
         errors = line_errors(document, truth)
         columns.append(Column("mrad", numbers([milli(e.direction) for e in errors]), group="true error"))
         columns.append(Column("mm", numbers([milli(e.point) for e in errors]), group="true error"))
-    nominal = nominal_differences(document)
+    nominal = None if truth is not None else nominal_differences(document)
     if nominal is not None:
         columns.append(Column("mrad", numbers([milli(e.direction) for e in nominal]), group="off nominal"))
         columns.append(Column("mm", numbers([milli(e.point) for e in nominal]), group="off nominal"))

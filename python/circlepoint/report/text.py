@@ -51,7 +51,7 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
         errors = line_errors(document, truth)
         columns.append(["error", "mrad", *align_decimals([milli(error.direction) for error in errors])])
         columns.append(["", "mm", *align_decimals([milli(error.point) for error in errors])])
-    nominal = nominal_differences(document)
+    nominal = None if truth is not None else nominal_differences(document)
     if nominal is not None:
         columns.append(["off nominal", "mrad", *align_decimals([milli(entry.direction) for entry in nominal])])
         columns.append(["", "mm", *align_decimals([milli(entry.point) for entry in nominal])])
