@@ -258,10 +258,27 @@ Eigen::Vector4d turn_about(const ScrewAxis& axis, const ScrewAxis& about) {
   return local_coordinates(axis.line, transform(screw_exp(about, step), axis.line)) / step;
 }
 
+// Root mean square by which every joint stood off the test's configuration, for methods that do not correct for it.
+Eigen::VectorXd yield_rms(const TestSamples& samples) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(samples.configuration.size());
+  double count = 0.0;
+  const auto add = [&](const SamplesX& position) {
+    squares += (position.rowwise() - samples.configuration.transpose()).colwise().squaredNorm().transpose();
+    count += static_cast<double>(position.rows());
+  };
+  add(samples.dwell_positions);
+  for (const MotionSamples& motion : samples.motions) {
+    add(motion.position);
+  }
+  return (squares / std::max(count, 1.0)).cwiseSqrt();
+}
+
 // What the encoders do not resolve: the joints beyond stand within half a count of where they say (carrying), and any other
 // joint may yield by as much in step with the test (tilt, and acceleration): three independent errors of resolution/sqrt(12).
 // Unknown joints that stand off the reference by little add that offset as it is.
-Eigen::Matrix4d pose_uncertainty(const Placed& placed, std::size_t i, const Eigen::VectorXd& resolution) {
+// Where yielding is not corrected, it adds as much as the encoders saw.
+Eigen::Matrix4d pose_uncertainty(const Placed& placed, std::size_t i, const Eigen::VectorXd& resolution,
+                                 const Eigen::VectorXd& uncorrected_yield) {
   const ScrewAxis& axis = *placed.chain.axes[i];
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (std::size_t j = 0; j < placed.lines.size(); ++j) {
@@ -271,7 +288,8 @@ Eigen::Matrix4d pose_uncertainty(const Placed& placed, std::size_t i, const Eige
     }
     if (placed.chain.axes[j]) {
       const Eigen::Vector4d turn = turn_about(axis, *placed.chain.axes[j]);
-      sum += 3.0 * resolution[joint] * resolution[joint] / 12.0 * turn * turn.transpose();
+      const double variance = 3.0 * resolution[joint] * resolution[joint] / 12.0 + uncorrected_yield[joint] * uncorrected_yield[joint];
+      sum += variance * turn * turn.transpose();
     } else if (j > i) {
       const double offset = placed.configurations[i][joint] - placed.chain.reference_configuration[joint];
       const double reach = axis.line.point.norm() + 0.5;
@@ -283,7 +301,7 @@ Eigen::Matrix4d pose_uncertainty(const Placed& placed, std::size_t i, const Eige
 }
 
 Eigen::MatrixXd covariance_at_reference(const std::vector<JointWork>& work, const Placed& placed, const SensorFromGravity& sensor,
-                                        const Eigen::VectorXd& resolution) {
+                                        const Eigen::VectorXd& resolution, bool yielding_corrected) {
   const auto joints = static_cast<Index>(work.size());
   Eigen::MatrixXd at_tests = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
   Eigen::MatrixXd by_sensor = Eigen::MatrixXd::Zero(4 * joints, sensor_errors);
@@ -320,7 +338,9 @@ Eigen::MatrixXd covariance_at_reference(const std::vector<JointWork>& work, cons
   Eigen::MatrixXd covariance = carrying * at_tests * carrying.transpose();
   for (std::size_t i = 0; i < work.size(); ++i) {
     if (placed.lines[i]) {
-      covariance.block<4, 4>(4 * static_cast<Index>(i), 4 * static_cast<Index>(i)) += pose_uncertainty(placed, i, resolution);
+      const Eigen::VectorXd left =
+          yielding_corrected ? Eigen::VectorXd::Zero(joints) : yield_rms(*work[i].samples);
+      covariance.block<4, 4>(4 * static_cast<Index>(i), 4 * static_cast<Index>(i)) += pose_uncertainty(placed, i, resolution, left);
     }
   }
   return covariance;
@@ -433,7 +453,8 @@ JointCalibration calibrate_joints(const Recording& recording, const Segmentation
   }
 
   result.up_gravity_sensor = placed.chain.up_gravity;
-  result.covariance = covariance_at_reference(work, placed, result.sensor, encoder_resolution(recording, options));
+  result.covariance = covariance_at_reference(work, placed, result.sensor, encoder_resolution(recording, options),
+                                              regression && options.use_resting_encoders);
   for (Index i = 0; i < recording.joints(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     JointEstimate estimate;
