@@ -31,12 +31,17 @@ $(BIN)/python: | system
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --upgrade 'pip>=25.1'
 
-.venv/dev.stamp: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --group dev 'scikit-build-core>=0.10' 'pybind11~=3.1.0'
+# The build's own tools live in the venv: with pip's throw-away build environments every install would compile anew.
+.venv/build.stamp: pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet 'scikit-build-core>=0.10' 'pybind11~=3.1.0'
 	@touch $@
 
-.venv/install.stamp: $(SOURCES) | $(BIN)/python
-	$(BIN)/python -m pip install --quiet .
+.venv/dev.stamp: pyproject.toml | .venv/build.stamp
+	$(BIN)/python -m pip install --quiet --group dev
+	@touch $@
+
+.venv/install.stamp: $(SOURCES) | .venv/build.stamp
+	$(BIN)/python -m pip install --quiet --no-build-isolation .
 	@touch $@
 
 install: .venv/install.stamp
