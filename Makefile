@@ -42,7 +42,7 @@ $(BIN)/python: | system
 	@touch $@
 
 .venv/install.stamp: $(SOURCES) | .venv/build.stamp
-	$(BIN)/python -m pip install --quiet --no-build-isolation .
+	$(BIN)/python -m pip install --quiet --no-build-isolation --config-settings=cmake.define.CIRCLEPOINT_WERROR=ON .
 	@touch $@
 
 install: .venv/install.stamp
