@@ -21,5 +21,6 @@ void bind_filters(py::module_& m);
 void bind_segmentation(py::module_& m);
 void bind_identification(py::module_& m);
 void bind_simulation(py::module_& m);
+void bind_whole_arm(py::module_& m);
 
 }  // namespace circlepoint::bindings

@@ -1,0 +1,35 @@
+#pragma once
+// Autoregressive models of coloured noise, and whitening with them.
+//
+//   x_t = a_1 x_t-1 + ... + a_p x_t-p + e_t,   e white with variance s_p^2.
+//
+// Coefficients come from the sample autocovariance by the Levinson-Durbin recursion (Yule-Walker equations), pooled over
+// segments that do not touch; divided by the total count, not by the pairs, it is positive definite, so the model is stable.
+// The recursion passes through all lower orders: the first p samples of a segment are whitened by the predictors of order
+// 0 to p - 1, so whitening is exact for a stationary process from the first sample on, none is lost, and the whitened
+// segment has the Gaussian likelihood of the original.
+//
+// Fails for segments without power: a zero signal has no model (InvalidInput).
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "circlepoint/core/types.hpp"
+
+namespace circlepoint {
+
+struct AutoregressiveModel {
+  Eigen::MatrixXd coefficients;        ///< (p + 1, p): row k holds the predictor of order k, a_1 ... a_k
+  Eigen::VectorXd innovation_std;      ///< (p + 1) of order 0 ... p, in the signal's unit
+
+  [[nodiscard]] Index order() const { return coefficients.cols(); }
+};
+
+/// Model of order `order` at most: less where the segments are shorter or the recursion is exhausted (a signal that a
+/// lower order predicts exactly).
+AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segments, Index order);
+
+/// Each column of one segment whitened to unit variance, in place: (N, columns).
+void whiten(const AutoregressiveModel& model, Eigen::Ref<Eigen::MatrixXd> columns);
+
+}  // namespace circlepoint

@@ -1,0 +1,69 @@
+#include "circlepoint/conditioning/autoregressive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "circlepoint/core/error.hpp"
+
+namespace circlepoint {
+
+AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segments, Index order) {
+  require(order >= 0, "order is " + std::to_string(order) + "; give 0 (white) or more");
+  Index count = 0;
+  Index longest = 0;
+  for (const Eigen::VectorXd& segment : segments) {
+    count += segment.size();
+    longest = std::max(longest, segment.size());
+  }
+  order = std::min(order, std::max<Index>(0, longest - 1));
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(order + 1);
+  for (const Eigen::VectorXd& segment : segments) {
+    for (Index lag = 0; lag <= std::min(order, segment.size() - 1); ++lag) {
+      covariance[lag] += segment.head(segment.size() - lag).dot(segment.tail(segment.size() - lag));
+    }
+  }
+  require(count > 0 && covariance[0] > 0.0 && std::isfinite(covariance[0]),
+          "the segments have " + std::to_string(count) + " samples and power " + std::to_string(covariance[0]) +
+              "; an autoregressive model needs finite, non-zero ones");
+  covariance /= static_cast<double>(count);
+
+  AutoregressiveModel model;
+  model.coefficients = Eigen::MatrixXd::Zero(order + 1, order);
+  model.innovation_std = Eigen::VectorXd::Zero(order + 1);
+  double variance = covariance[0];
+  model.innovation_std[0] = std::sqrt(variance);
+  for (Index k = 1; k <= order; ++k) {
+    const Eigen::VectorXd before = model.coefficients.row(k - 1).head(k - 1);
+    const double reflection = (covariance[k] - before.dot(covariance.segment(1, k - 1).reverse())) / variance;
+    const double next = variance * (1.0 - reflection * reflection);
+    if (!(next > 1e-12 * covariance[0])) {
+      model.coefficients.conservativeResize(k, k - 1);
+      model.innovation_std.conservativeResize(k);
+      return model;
+    }
+    model.coefficients.row(k).head(k - 1) = before - reflection * before.reverse();
+    model.coefficients(k, k - 1) = reflection;
+    variance = next;
+    model.innovation_std[k] = std::sqrt(variance);
+  }
+  return model;
+}
+
+void whiten(const AutoregressiveModel& model, Eigen::Ref<Eigen::MatrixXd> columns) {
+  const Index order = model.order();
+  // From the last sample to the first, so that each still finds its predecessors as they were.
+  for (Index column = 0; column < columns.cols(); ++column) {
+    auto x = columns.col(column);
+    for (Index t = x.size(); t-- > 0;) {
+      const Index k = std::min(t, order);
+      double prediction = 0.0;
+      for (Index lag = 1; lag <= k; ++lag) {
+        prediction += model.coefficients(k, lag - 1) * x[t - lag];
+      }
+      x[t] = (x[t] - prediction) / model.innovation_std[k];
+    }
+  }
+}
+
+}  // namespace circlepoint

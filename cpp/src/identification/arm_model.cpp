@@ -1,0 +1,318 @@
+#include "arm_model.hpp"
+
+#include <cmath>
+
+#include "circlepoint/geometry/joint_axis.hpp"
+#include "circlepoint/geometry/rigid_transform.hpp"
+
+namespace circlepoint {
+namespace {
+
+Eigen::Vector3d read(const AccelerometerModel& sensor, const Eigen::Vector3d& force, const Eigen::Vector3d& rate) {
+  return sensor.measure(force, rate);
+}
+
+// Columns of a line's local coordinates as twists (angular, linear) at the base frame's origin.
+Eigen::Matrix<double, 6, 4> line_twists(const ScrewAxis& axis) {
+  const Eigen::Vector3d& z = axis.line.direction;
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(z);
+  Eigen::Matrix<double, 6, 4> twists = Eigen::Matrix<double, 6, 4>::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector3d rotation = z.cross(basis.col(k));
+    twists.block<3, 1>(0, k) = rotation;
+    twists.block<3, 1>(3, k) = axis.line.point.cross(rotation);
+    twists.block<3, 1>(3, 2 + k) = basis.col(k);
+  }
+  return twists;
+}
+
+}  // namespace
+
+ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<const Eigen::VectorXd>& step) {
+  ArmState next = state;
+  for (std::size_t i = 0; i < state.axes.size(); ++i) {
+    if (layout.lines[i] < 0) {
+      continue;
+    }
+    Eigen::Vector4d local = Eigen::Vector4d::Zero();
+    if (state.axes[i].type == JointType::revolute) {
+      local = step.segment<4>(layout.lines[i]);
+    } else {
+      local.head<2>() = step.segment<2>(layout.lines[i]);
+    }
+    next.axes[i].line = retract(state.axes[i].line, local);
+  }
+  const auto add = [&](Index column, Eigen::Vector3d& value) {
+    if (column >= 0) {
+      value += step.segment<3>(column);
+    }
+  };
+  add(layout.up_gravity, next.up_gravity);
+  add(layout.bias, next.sensor.bias);
+  add(layout.scale, next.sensor.scale);
+  add(layout.misalignment, next.sensor.misalignment);
+  add(layout.percussion_distance, next.sensor.percussion_distance);
+  add(layout.second_order, next.sensor.second_order);
+  add(layout.gyroscope_bias, next.gyroscope_bias);
+  const Index joints = state.reference.size();
+  if (layout.clock_offset >= 0) {
+    next.clock_offset += step[layout.clock_offset];
+  }
+  if (layout.clock_rate >= 0) {
+    next.clock_rate += step[layout.clock_rate];
+  }
+  if (layout.encoder_gain >= 0) {
+    next.encoder_gain += step.segment(layout.encoder_gain, joints);
+  }
+  if (layout.eccentricity >= 0) {
+    next.eccentricity.col(0) += step.segment(layout.eccentricity, joints);
+    next.eccentricity.col(1) += step.segment(layout.eccentricity + joints, joints);
+  }
+  if (layout.gyroscope_matrix >= 0) {
+    for (int k = 0; k < 9; ++k) {
+      next.gyroscope_matrix(k / 3, k % 3) += step[layout.gyroscope_matrix + k];
+    }
+  }
+  return next;
+}
+
+ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
+    : state_(state), layout_(layout), joints_(state.reference.size()) {
+  const auto links = static_cast<std::size_t>(joints_) + 1;
+  turn_.resize(links, Eigen::Matrix3d::Identity());
+  rate_.resize(links, Eigen::Vector3d::Zero());
+  angular_acceleration_.resize(links, Eigen::Vector3d::Zero());
+  force_.resize(links, Eigen::Vector3d::Zero());
+  to_sensor_.resize(links, Eigen::Matrix3d::Identity());
+  by_twist_.resize(links, Eigen::Matrix<double, 3, 6>::Zero());
+  rate_by_rotation_.resize(links, Eigen::Matrix3d::Zero());
+  place_.resize(links, Eigen::Vector3d::Zero());
+  place_rate_.resize(links, Eigen::Vector3d::Zero());
+}
+
+JointInstant ArmPredictor::actual(const JointInstant& instant) const {
+  JointInstant now = instant;
+  const double delay = state_.clock_offset + (state_.clock_rate - 1.0) * instant.time_from_middle;
+  if (delay != 0.0) {
+    now.position += -delay * instant.velocity + 0.5 * delay * delay * instant.acceleration -
+                    delay * delay * delay / 6.0 * instant.jerk;
+    now.velocity += -delay * instant.acceleration + 0.5 * delay * delay * instant.jerk;
+    now.acceleration -= delay * instant.jerk;
+  }
+  for (Index j = 0; j < joints_; ++j) {
+    const double gain = state_.encoder_gain.size() > 0 ? state_.encoder_gain[j] : 0.0;
+    const double cosine = state_.eccentricity.rows() > 0 ? state_.eccentricity(j, 0) : 0.0;
+    const double sine = state_.eccentricity.rows() > 0 ? state_.eccentricity(j, 1) : 0.0;
+    if (gain == 0.0 && cosine == 0.0 && sine == 0.0) {
+      continue;
+    }
+    const double q = now.position[j];
+    const double q_dot = now.velocity[j];
+    const double slope = 1.0 + gain - cosine * std::sin(q) + sine * std::cos(q);
+    const double curvature = -cosine * std::cos(q) - sine * std::sin(q);
+    now.position[j] += gain * (q - state_.reference[j]) + cosine * (std::cos(q) - std::cos(state_.reference[j])) +
+                       sine * (std::sin(q) - std::sin(state_.reference[j]));
+    now.velocity[j] = slope * q_dot;
+    now.acceleration[j] = slope * now.acceleration[j] + curvature * q_dot * q_dot;
+  }
+  return now;
+}
+
+void ArmPredictor::forward(const JointInstant& instant) {
+  now_ = actual(instant);
+  force_[0] = state_.up_gravity;
+  for (Index j = 0; j < joints_; ++j) {
+    const auto before = static_cast<std::size_t>(j);
+    const auto after = before + 1;
+    const ScrewAxis& axis = state_.axes[before];
+    const Eigen::Vector3d& z = axis.line.direction;
+    const double q = now_.position[j] - state_.reference[j];
+    const Eigen::Vector3d& w = rate_[before];
+    const Eigen::Vector3d& alpha = angular_acceleration_[before];
+    if (axis.type == JointType::prismatic) {
+      const Eigen::Vector3d shift = q * z;
+      rate_[after] = w;
+      angular_acceleration_[after] = alpha;
+      force_[after] = force_[before] + alpha.cross(shift) + w.cross(w.cross(shift)) + 2.0 * now_.velocity[j] * w.cross(z) +
+                      now_.acceleration[j] * z;
+      continue;
+    }
+    const Eigen::Vector3d& c = axis.line.point;
+    turn_[before] = Eigen::AngleAxisd(q, z).toRotationMatrix();
+    const Eigen::Vector3d turned = turn_[before].transpose() * w;
+    rate_[after] = turned + now_.velocity[j] * z;
+    angular_acceleration_[after] =
+        turn_[before].transpose() * alpha + now_.acceleration[j] * z + now_.velocity[j] * turned.cross(z);
+    const Eigen::Vector3d at_axis = force_[before] + alpha.cross(c) + w.cross(w.cross(c));
+    force_[after] = turn_[before].transpose() * at_axis - angular_acceleration_[after].cross(c) -
+                    rate_[after].cross(rate_[after].cross(c));
+  }
+}
+
+void ArmPredictor::backward() {
+  const auto tip = static_cast<std::size_t>(joints_);
+  place_[tip].setZero();
+  place_rate_[tip].setZero();
+  to_sensor_[tip].setIdentity();
+  for (std::size_t k = tip + 1; k-- > 0;) {
+    if (k < tip) {
+      const auto j = static_cast<Index>(k);
+      const ScrewAxis& axis = state_.axes[k];
+      const Eigen::Vector3d& z = axis.line.direction;
+      if (axis.type == JointType::prismatic) {
+        place_[k] = place_[k + 1] + (now_.position[j] - state_.reference[j]) * z;
+        place_rate_[k] = place_rate_[k + 1] + now_.velocity[j] * z;
+        to_sensor_[k] = to_sensor_[k + 1];
+      } else {
+        const Eigen::Vector3d arm = turn_[k] * (place_[k + 1] - axis.line.point);
+        place_[k] = axis.line.point + arm;
+        place_rate_[k] = now_.velocity[j] * z.cross(arm) + turn_[k] * place_rate_[k + 1];
+        to_sensor_[k] = turn_[k] * to_sensor_[k + 1];
+      }
+    }
+    const Eigen::Vector3d& w = rate_[k];
+    const Eigen::Vector3d& p = place_[k];
+    const Eigen::Matrix3d w_skew = skew(w);
+    const Eigen::Matrix3d alpha_skew = skew(angular_acceleration_[k]);
+    const Eigen::Matrix3d p_skew = skew(p);
+    const Eigen::Matrix3d back = to_sensor_[k].transpose();
+    by_twist_[k].leftCols<3>() =
+        back * (skew(force_[k]) - p_skew * alpha_skew -
+                (skew(w.cross(p)) + w_skew * p_skew + 2.0 * skew(place_rate_[k])) * w_skew);
+    by_twist_[k].rightCols<3>() = back * (alpha_skew + w_skew * w_skew);
+    rate_by_rotation_[k] = back * w_skew;
+  }
+}
+
+Eigen::Vector3d ArmPredictor::sense() const { return read(state_.sensor, force_.back(), rate_.back()); }
+
+Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant) {
+  forward(instant);
+  return sense();
+}
+
+Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  jacobian.setZero();
+  by_finite_difference(instant, jacobian);
+  forward(instant);
+  backward();
+  const AccelerometerModel& sensor = state_.sensor;
+  const Eigen::Vector3d& w = rate_.back();
+  const Eigen::Vector3d centripetal = w.squaredNorm() - w.array().square();
+  const Eigen::Vector3d at_channels = force_.back() - sensor.percussion_distance.cwiseProduct(centripetal);
+  const Eigen::Matrix3d misalignment = sensor.misalignment_matrix();
+  const Eigen::Vector3d u = misalignment * at_channels;
+  const Eigen::Vector3d slope = 1.0 + sensor.scale.array() + 2.0 * sensor.second_order.array() * u.array();
+  const Eigen::Matrix3d by_force = slope.asDiagonal() * misalignment;
+  // The centripetal terms' derivative by the sensor's angular velocity.
+  const Eigen::Matrix3d by_rate =
+      -2.0 * by_force * sensor.percussion_distance.asDiagonal() *
+      (Eigen::Vector3d::Ones() * w.transpose() - Eigen::Matrix3d(w.asDiagonal()));
+  for (std::size_t i = 0; i < state_.axes.size(); ++i) {
+    const Index column = layout_.lines[i];
+    if (column < 0) {
+      continue;
+    }
+    Eigen::Matrix<double, 3, 6> by_twist = by_force * (by_twist_[i] - by_twist_[i + 1]);
+    by_twist.leftCols<3>() += by_rate * (rate_by_rotation_[i] - rate_by_rotation_[i + 1]);
+    const Eigen::Matrix<double, 3, 4> by_line = by_twist * line_twists(state_.axes[i]);
+    if (state_.axes[i].type == JointType::revolute) {
+      jacobian.middleCols<4>(column) = by_line;
+    } else {
+      jacobian.middleCols<2>(column) = by_line.leftCols<2>();
+    }
+  }
+  if (layout_.up_gravity >= 0) {
+    jacobian.middleCols<3>(layout_.up_gravity) = by_force * to_sensor_[0].transpose();
+  }
+  if (layout_.bias >= 0) {
+    jacobian.middleCols<3>(layout_.bias).setIdentity();
+  }
+  if (layout_.scale >= 0) {
+    jacobian.middleCols<3>(layout_.scale) = u.asDiagonal();
+  }
+  if (layout_.misalignment >= 0) {
+    jacobian(1, layout_.misalignment) = slope.y() * at_channels.x();
+    jacobian(2, layout_.misalignment + 1) = slope.z() * at_channels.x();
+    jacobian(2, layout_.misalignment + 2) = slope.z() * at_channels.y();
+  }
+  if (layout_.percussion_distance >= 0) {
+    jacobian.middleCols<3>(layout_.percussion_distance) = -by_force * centripetal.asDiagonal();
+  }
+  if (layout_.second_order >= 0) {
+    jacobian.middleCols<3>(layout_.second_order) = u.cwiseAbs2().asDiagonal();
+  }
+  return sense();
+}
+
+// Columns without a closed form here: clocks and encoders, two readings each.
+void ArmPredictor::by_finite_difference(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  const auto difference = [&](Index column, double& value, double step) {
+    const double here = value;
+    value = here + step;
+    const Eigen::Vector3d above = reading(instant);
+    value = here - step;
+    jacobian.col(column) = (above - reading(instant)) / (2.0 * step);
+    value = here;
+  };
+  if (layout_.clock_offset >= 0) {
+    difference(layout_.clock_offset, state_.clock_offset, 1e-4);
+  }
+  if (layout_.clock_rate >= 0 && layout_.clock_offset >= 0) {
+    jacobian.col(layout_.clock_rate) = instant.time_from_middle * jacobian.col(layout_.clock_offset);
+  }
+  for (Index j = 0; j < joints_; ++j) {
+    if (layout_.encoder_gain >= 0) {
+      difference(layout_.encoder_gain + j, state_.encoder_gain[j], 1e-5);
+    }
+    if (layout_.eccentricity >= 0) {
+      difference(layout_.eccentricity + j, state_.eccentricity(j, 0), 1e-5);
+      difference(layout_.eccentricity + joints_ + j, state_.eccentricity(j, 1), 1e-5);
+    }
+  }
+}
+
+Eigen::Vector3d ArmPredictor::angular_rate() const {
+  return state_.gyroscope_matrix * rate_.back() + state_.gyroscope_bias;
+}
+
+Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  jacobian.setZero();
+  const Eigen::Vector3d& w = rate_.back();
+  for (std::size_t i = 0; i < state_.axes.size(); ++i) {
+    if (layout_.lines[i] >= 0) {
+      jacobian.middleCols<2>(layout_.lines[i]) = state_.gyroscope_matrix *
+                                                 (rate_by_rotation_[i] - rate_by_rotation_[i + 1]) *
+                                                 line_twists(state_.axes[i]).topLeftCorner<3, 2>();
+    }
+  }
+  if (layout_.clock_offset >= 0) {
+    // The sensor's angular acceleration, seen from the sensor itself.
+    jacobian.col(layout_.clock_offset) = -state_.gyroscope_matrix * angular_acceleration_.back();
+    if (layout_.clock_rate >= 0) {
+      jacobian.col(layout_.clock_rate) = now_.time_from_middle * jacobian.col(layout_.clock_offset);
+    }
+  }
+  if (layout_.gyroscope_bias >= 0) {
+    jacobian.middleCols<3>(layout_.gyroscope_bias).setIdentity();
+  }
+  if (layout_.gyroscope_matrix >= 0) {
+    for (int k = 0; k < 9; ++k) {
+      jacobian(k / 3, layout_.gyroscope_matrix + k) = w[k % 3];
+    }
+  }
+  return angular_rate();
+}
+
+Eigen::MatrixXd ArmPredictor::by_joint_offset() const {
+  const Eigen::Vector3d slope = 1.0 + state_.sensor.scale.array();
+  const Eigen::Matrix3d by_force = slope.asDiagonal() * state_.sensor.misalignment_matrix();
+  Eigen::MatrixXd derivative(3, joints_);
+  for (Index j = 0; j < joints_; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    derivative.col(j) = by_force * by_twist_[k + 1] * state_.axes[k].twist();
+  }
+  return derivative;
+}
+
+}  // namespace circlepoint

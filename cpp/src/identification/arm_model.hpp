@@ -1,0 +1,101 @@
+#pragma once
+// What a sensor on an arm reads, as a function of everything that is unknown, with its derivatives.
+//
+// The chain is a product of exponentials of lines given in the sensor frame at the reference configuration; the links' frames
+// all coincide there, so home is the identity. A forward pass carries angular velocity, angular acceleration and specific force
+// from the base (which "accelerates" by up-gravity) to the sensor; a backward pass carries the sensor's motion as seen from
+// every link. Displacing everything beyond link k by a small twist eta changes the sensor's specific force by A_k eta, with
+// A_k in closed form of the two; a line displaced by eta is eta before its joint and -eta after it, so its derivative is
+// (A_before - A_after) eta: exact, and linear in the number of joints.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "circlepoint/geometry/screw_axis.hpp"
+#include "circlepoint/identification/whole_arm.hpp"
+#include "circlepoint/sensor/accelerometer.hpp"
+
+namespace circlepoint {
+
+struct ArmState {
+  std::vector<ScrewAxis> axes;  // base to tip, sensor frame at the reference configuration
+  Eigen::VectorXd reference;    // (n)
+  Eigen::Vector3d up_gravity = Eigen::Vector3d::Zero();
+  AccelerometerModel sensor;
+  double clock_offset = 0.0;    // s: the sample stamped t shows the joints at t - clock_offset - (clock_rate - 1) (t - middle)
+  double clock_rate = 1.0;
+  Eigen::VectorXd encoder_gain;                       // (n) relative error of the joints' encoders
+  Eigen::Matrix<double, Eigen::Dynamic, 2> eccentricity;  // (n, 2) rad: of cos(q) and sin(q)
+  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();       // rad/s
+  Eigen::Matrix3d gyroscope_matrix = Eigen::Matrix3d::Identity();  // reading = matrix w + bias
+};
+
+// Columns of the parameter vector: each group begins at its column, or at -1 when it is fixed.
+struct ArmLayout {
+  std::vector<Index> lines;  // (n) first column of each joint's line: 4 revolute, 2 prismatic; -1: the joint never moves
+  Index up_gravity = -1;
+  Index bias = -1;
+  Index scale = -1;
+  Index misalignment = -1;
+  Index percussion_distance = -1;
+  Index second_order = -1;
+  Index clock_offset = -1;
+  Index clock_rate = -1;
+  Index encoder_gain = -1;
+  Index eccentricity = -1;
+  Index gyroscope_bias = -1;
+  Index gyroscope_matrix = -1;
+  Index columns = 0;
+};
+
+// Joints at one instant.
+struct JointInstant {
+  double time_from_middle = 0.0;  // s, for the clock's rate
+  Eigen::VectorXd position;       // (n)
+  Eigen::VectorXd velocity;       // (n)
+  Eigen::VectorXd acceleration;   // (n)
+  Eigen::VectorXd jerk;           // (n)
+};
+
+// The state moved by a step in the layout's coordinates (lines: their local coordinates).
+ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<const Eigen::VectorXd>& step);
+
+// Evaluates one instant at a time; keeps its workspace.
+class ArmPredictor {
+ public:
+  ArmPredictor(const ArmState& state, const ArmLayout& layout);
+
+  // Accelerometer reading, m/s^2.
+  Eigen::Vector3d reading(const JointInstant& instant);
+  // The same with its derivatives: jacobian (3, columns).
+  Eigen::Vector3d reading(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian);
+  // Gyroscope reading of the instant evaluated last, rad/s.
+  [[nodiscard]] Eigen::Vector3d angular_rate() const;
+  // The same with its derivatives, after a call with derivatives of the same instant.
+  Eigen::Vector3d angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian);
+  // d reading / d q of constant joint offsets at the instant evaluated last with derivatives: (3, n).
+  [[nodiscard]] Eigen::MatrixXd by_joint_offset() const;
+
+ private:
+  void forward(const JointInstant& instant);
+  void backward();
+  [[nodiscard]] JointInstant actual(const JointInstant& instant) const;
+  [[nodiscard]] Eigen::Vector3d sense() const;
+  void by_finite_difference(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian);
+
+  ArmState state_;
+  const ArmLayout& layout_;
+  Index joints_;
+  std::vector<Eigen::Matrix3d> turn_;             // R of each joint
+  std::vector<Eigen::Vector3d> rate_;             // w of each link, 0..n
+  std::vector<Eigen::Vector3d> angular_acceleration_;
+  std::vector<Eigen::Vector3d> force_;            // a of each link, 0..n
+  std::vector<Eigen::Matrix3d> to_sensor_;        // R_k_sensor
+  std::vector<Eigen::Matrix<double, 3, 6>> by_twist_;      // A_k
+  std::vector<Eigen::Matrix3d> rate_by_rotation_;          // d w_sensor / d eta_w
+  std::vector<Eigen::Vector3d> place_;            // p of the sensor in each link
+  std::vector<Eigen::Vector3d> place_rate_;
+  JointInstant now_;
+};
+
+}  // namespace circlepoint

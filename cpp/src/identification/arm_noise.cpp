@@ -1,0 +1,128 @@
+#include "arm_noise.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace circlepoint {
+namespace {
+
+constexpr Index highest_order = 16;
+constexpr Index rows_per_coefficient = 25;
+
+MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size_t>& members, Index channels) {
+  MotionNoise noise;
+  Index count = 0;
+  for (const std::size_t member : members) {
+    count += moving[member].rows();
+  }
+  const Index order = std::clamp<Index>(count / rows_per_coefficient, 0, highest_order);
+  for (Index triad = 0; triad < channels / 3; ++triad) {
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const std::size_t member : members) {
+      const auto residual = moving[member].middleCols<3>(3 * triad);
+      scatter += residual.transpose() * residual;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+    noise.rotation.emplace_back(solver.eigenvectors().transpose());
+    for (int channel = 0; channel < 3; ++channel) {
+      std::vector<Eigen::VectorXd> segments;
+      for (const std::size_t member : members) {
+        segments.emplace_back(moving[member].middleCols<3>(3 * triad) * noise.rotation.back().row(channel).transpose());
+      }
+      // Readings that fit exactly (a simulation without noise) still need a scale.
+      segments.front()[0] += 1e-9;
+      noise.channels.push_back(fit_autoregressive(segments, order));
+      // The innovations' size by the residuals themselves: the pooled autocovariance errs on the wide side.
+      double squares = 0.0;
+      for (Eigen::VectorXd& segment : segments) {
+        whiten(noise.channels.back(), segment);
+        squares += segment.squaredNorm();
+      }
+      noise.channels.back().innovation_std *= std::sqrt(squares / static_cast<double>(count));
+    }
+  }
+  return noise;
+}
+
+}  // namespace
+
+ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, double rate_std) {
+  ArmNoise noise;
+  noise.dwell_excess = Eigen::VectorXd::Constant(rows.channels, dwell_std);
+  MotionNoise kind;
+  for (Index triad = 0; triad < rows.channels / 3; ++triad) {
+    kind.rotation.emplace_back(Eigen::Matrix3d::Identity());
+    for (int channel = 0; channel < 3; ++channel) {
+      kind.channels.push_back({Eigen::MatrixXd::Zero(1, 0), Eigen::VectorXd::Constant(1, triad == 0 ? moving_std : rate_std)});
+    }
+  }
+  if (rows.channels == 6) {
+    noise.dwell_excess.tail<3>().setConstant(rate_std);
+  }
+  Index kinds = 0;
+  for (const MovingStretch& stretch : rows.stretches) {
+    kinds = std::max(kinds, stretch.noise + 1);
+  }
+  noise.kinds.assign(static_cast<std::size_t>(kinds), kind);
+  return noise;
+}
+
+ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
+                        const Eigen::MatrixXd& dwell_variance, double parameters) {
+  ArmNoise noise;
+  Index kinds = 0;
+  double total = static_cast<double>(dwells.size());
+  for (const MovingStretch& stretch : rows.stretches) {
+    kinds = std::max(kinds, stretch.noise + 1);
+    total += static_cast<double>(stretch.rows() * rows.channels);
+  }
+  for (Index kind = 0; kind < kinds; ++kind) {
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < rows.stretches.size(); ++i) {
+      if (rows.stretches[i].noise == kind) {
+        members.push_back(i);
+      }
+    }
+    noise.kinds.push_back(fit_kind(moving, members, rows.channels));
+    for (AutoregressiveModel& channel : noise.kinds.back().channels) {
+      channel.innovation_std *= std::sqrt(total / std::max(total - parameters, 1.0));
+    }
+  }
+  // The excess that makes the dwells' normalised squares average one, by bisection.
+  noise.dwell_excess = Eigen::VectorXd::Zero(rows.channels);
+  const double dof = static_cast<double>(dwells.rows()) * std::max(0.2, 1.0 - parameters / std::max(1.0, total));
+  for (Index triad = 0; triad < rows.channels / 3 && dwells.rows() > 0; ++triad) {
+    const auto excess_squares = [&](double variance) {
+      return (dwells.middleCols<3>(3 * triad).array().square() / (dwell_variance.middleCols<3>(3 * triad).array() + variance)).sum() -
+             3.0 * dof;
+    };
+    double low = 0.0;
+    double high = dwells.middleCols<3>(3 * triad).array().square().maxCoeff() + 1e-12;
+    if (excess_squares(0.0) > 0.0) {
+      for (int i = 0; i < 80; ++i) {
+        const double middle = 0.5 * (low + high);
+        (excess_squares(middle) > 0.0 ? low : high) = middle;
+      }
+      noise.dwell_excess.segment<3>(3 * triad).setConstant(std::sqrt(high));
+    }
+  }
+  return noise;
+}
+
+void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns) {
+  for (std::size_t triad = 0; triad < noise.rotation.size(); ++triad) {
+    const Eigen::Matrix3d& rotation = noise.rotation[triad];
+    const Index at = 3 * static_cast<Index>(triad) * rows;
+    for (Index column = 0; column < columns.cols(); ++column) {
+      Eigen::Map<Eigen::MatrixXd> samples(&columns(at, column), rows, 3);
+      samples = (samples * rotation.transpose()).eval();
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+      whiten(noise.channels[3 * triad + static_cast<std::size_t>(channel)], columns.middleRows(at + channel * rows, rows));
+    }
+  }
+}
+
+}  // namespace circlepoint

@@ -1,0 +1,38 @@
+#pragma once
+// How the whole-arm residuals scatter: per kind of motion, uncorrelated channels each with an autoregressive model; dwells by
+// their samples' scatter, the encoders' counts and one common excess.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "arm_rows.hpp"
+#include "circlepoint/conditioning/autoregressive.hpp"
+
+namespace circlepoint {
+
+// Channels (3 accelerometer, then 3 gyroscope) rotated within each triad, then whitened.
+struct MotionNoise {
+  std::vector<Eigen::Matrix3d> rotation;           // a triad each: rows are the uncorrelated channels
+  std::vector<AutoregressiveModel> channels;       // 3 or 6
+};
+
+struct ArmNoise {
+  std::vector<MotionNoise> kinds;
+  Eigen::VectorXd dwell_excess;  // (3) or (6) m/s^2 or rad/s: added to a dwell's own standard deviation, in squares
+};
+
+// Residuals of one stretch: rows (M, channels).
+using StretchResiduals = std::vector<Eigen::MatrixXd>;
+
+// White noise of the given size, before any residual is known.
+ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, double rate_std);
+
+// From residuals of the moving stretches and of the dwells (D, channels); `dwell_variance` (D, channels) is what the dwells'
+// own scatter and the encoders explain; parameters: how many were fitted.
+ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
+                        const Eigen::MatrixXd& dwell_variance, double parameters);
+
+// Whitens a stretch in place: `columns` (M * channels, k), channel-major within (channel c: rows c M ... (c + 1) M - 1).
+void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns);
+
+}  // namespace circlepoint

@@ -1,0 +1,507 @@
+#include "arm_problem.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+namespace circlepoint {
+namespace {
+
+// What the shared offsets add to the joints' positions.
+Eigen::VectorXd shift(const ArmProblem& problem, const std::vector<Index>& offsets, Index joints) {
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(joints);
+  for (std::size_t joint = 0; joint < offsets.size(); ++joint) {
+    if (offsets[joint] >= 0) {
+      added[static_cast<Index>(joint)] = problem.offsets[offsets[joint]];
+    }
+  }
+  return added;
+}
+
+// The joints whose offset is a column, and their offsets.
+std::vector<Index> joints_with_offset(const std::vector<Index>& offsets) {
+  std::vector<Index> joints;
+  for (std::size_t joint = 0; joint < offsets.size(); ++joint) {
+    if (offsets[joint] >= 0) {
+      joints.push_back(static_cast<Index>(joint));
+    }
+  }
+  return joints;
+}
+
+void set_instant(const MovingStretch& stretch, Index row, double middle, const Eigen::VectorXd& shifted, JointInstant& instant) {
+  instant.time_from_middle = stretch.time[row] - middle;
+  instant.position = stretch.position.row(row).transpose() + shifted;
+  instant.velocity = stretch.velocity.row(row);
+  instant.acceleration = stretch.acceleration.row(row);
+  instant.jerk = stretch.jerk.row(row);
+}
+
+void set_instant(const DwellRow& dwell, double middle, const Eigen::VectorXd& shifted, JointInstant& instant) {
+  instant.time_from_middle = dwell.time - middle;
+  instant.position = dwell.position + shifted;
+  instant.velocity = Eigen::VectorXd::Zero(dwell.position.size());
+  instant.acceleration = instant.velocity;
+  instant.jerk = instant.velocity;
+}
+
+// Rows (channel-major) of Jacobian, last column residual.
+Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predictor, const MovingStretch& stretch) {
+  const Index rows = stretch.rows();
+  const Index columns = problem.layout.columns;
+  const std::vector<Index> resting = joints_with_offset(stretch.offsets);
+  const Index last = columns + static_cast<Index>(resting.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows * problem.rows.channels, last + 1);
+  Eigen::MatrixXd jacobian(3, columns);
+  const Eigen::VectorXd shifted = shift(problem, stretch.offsets, stretch.position.cols());
+  JointInstant instant;
+  for (Index i = 0; i < rows; ++i) {
+    set_instant(stretch, i, problem.rows.middle, shifted, instant);
+    const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
+    const Eigen::MatrixXd by_offset = predictor.by_joint_offset();
+    for (int channel = 0; channel < 3; ++channel) {
+      system.row(channel * rows + i).head(columns) = jacobian.row(channel);
+      system.row(channel * rows + i).segment(columns, last - columns) = by_offset(channel, resting);
+      system(channel * rows + i, last) = reading[channel] - stretch.reading(i, channel);
+    }
+    if (problem.rows.channels == 6) {
+      const Eigen::Vector3d rate = predictor.angular_rate(jacobian);
+      for (int channel = 0; channel < 3; ++channel) {
+        system.row((3 + channel) * rows + i).head(columns) = jacobian.row(channel);
+        system((3 + channel) * rows + i, last) = rate[channel] - stretch.reading(i, 3 + channel);
+      }
+    }
+  }
+  return system;
+}
+
+struct DwellSystem {
+  Eigen::MatrixXd rows;      // (channels, columns + 1), not weighted
+  Eigen::MatrixXd variance;  // (channels, channels) by scatter and encoders
+};
+
+DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, const DwellRow& dwell) {
+  const Index columns = problem.layout.columns;
+  const Index channels = problem.rows.channels;
+  const std::vector<Index> resting = joints_with_offset(dwell.offsets);
+  const Index last = columns + static_cast<Index>(resting.size());
+  DwellSystem system{Eigen::MatrixXd::Zero(channels, last + 1), Eigen::MatrixXd(dwell.variance.asDiagonal())};
+  JointInstant instant;
+  set_instant(dwell, problem.rows.middle, shift(problem, dwell.offsets, dwell.position.size()), instant);
+  Eigen::MatrixXd jacobian(3, columns);
+  const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
+  system.rows.topLeftCorner(3, columns) = jacobian;
+  system.rows.col(last).head<3>() = reading - dwell.reading.head<3>();
+  const Eigen::MatrixXd by_offset = predictor.by_joint_offset();
+  system.rows.block(0, columns, 3, last - columns) = by_offset(Eigen::all, resting);
+  system.variance.topLeftCorner<3, 3>() += by_offset * dwell.position_variance.asDiagonal() * by_offset.transpose();
+  if (channels == 6) {
+    const Eigen::Vector3d rate = predictor.angular_rate(jacobian);
+    system.rows.bottomLeftCorner(3, columns) = jacobian;
+    system.rows.col(last).tail<3>() = rate - dwell.reading.tail<3>();
+  }
+  return system;
+}
+
+NormalEquations normal_equations(const Eigen::MatrixXd& system) {
+  const Index columns = system.cols() - 1;
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns + 1, columns + 1);
+  product.selfadjointView<Eigen::Lower>().rankUpdate(system.transpose());
+  NormalEquations equations;
+  equations.information = product.topLeftCorner(columns, columns).selfadjointView<Eigen::Lower>();
+  equations.gradient = product.row(columns).head(columns);
+  equations.cost = product(columns, columns);
+  return equations;
+}
+
+// Calls work(predictor, i) for i in [0, count) on the problem's threads.
+template <class Work>
+void for_each(const ArmProblem& problem, const ArmState& state, std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next{0};
+  const auto run = [&] {
+    ArmPredictor predictor(state, problem.layout);
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(predictor, i);
+    }
+  };
+  const auto threads = std::min<std::size_t>(problem.threads, count);
+  std::vector<std::thread> others;
+  for (std::size_t i = 1; i < threads; ++i) {
+    others.emplace_back(run);
+  }
+  run();
+  for (std::thread& thread : others) {
+    thread.join();
+  }
+}
+
+// A state as a flat block for Ceres: lines as direction and point, then all else.
+class FlatState {
+ public:
+  FlatState(const ArmState& shape, const ArmLayout& layout) : shape_(shape), layout_(layout) {}
+
+  [[nodiscard]] int size() const {
+    const auto joints = static_cast<int>(shape_.axes.size());
+    return 6 * joints + 3 * joints + 6 * 3 + 2 + 3 + 9;
+  }
+
+  void write(const ArmState& state, double* block) const {
+    const auto put = [&block](double value) { *block++ = value; };
+    const auto put3 = [&put](const Eigen::Vector3d& v) {
+      put(v.x());
+      put(v.y());
+      put(v.z());
+    };
+    for (const ScrewAxis& axis : state.axes) {
+      put3(axis.line.direction);
+      put3(axis.line.point);
+    }
+    for (Index j = 0; j < state.reference.size(); ++j) {
+      put(state.encoder_gain[j]);
+      put(state.eccentricity(j, 0));
+      put(state.eccentricity(j, 1));
+    }
+    put3(state.up_gravity);
+    put3(state.sensor.bias);
+    put3(state.sensor.scale);
+    put3(state.sensor.misalignment);
+    put3(state.sensor.percussion_distance);
+    put3(state.sensor.second_order);
+    put(state.clock_offset);
+    put(state.clock_rate);
+    put3(state.gyroscope_bias);
+    for (int k = 0; k < 9; ++k) {
+      put(state.gyroscope_matrix(k / 3, k % 3));
+    }
+  }
+
+  [[nodiscard]] ArmState read(const double* block) const {
+    ArmState state = shape_;
+    const auto take = [&block] { return *block++; };
+    const auto take3 = [&block] {
+      const Eigen::Vector3d v(block[0], block[1], block[2]);
+      block += 3;
+      return v;
+    };
+    for (ScrewAxis& axis : state.axes) {
+      axis.line.direction = take3();
+      axis.line.point = take3();
+    }
+    for (Index j = 0; j < state.reference.size(); ++j) {
+      state.encoder_gain[j] = take();
+      state.eccentricity(j, 0) = take();
+      state.eccentricity(j, 1) = take();
+    }
+    state.up_gravity = take3();
+    state.sensor.bias = take3();
+    state.sensor.scale = take3();
+    state.sensor.misalignment = take3();
+    state.sensor.percussion_distance = take3();
+    state.sensor.second_order = take3();
+    state.clock_offset = take();
+    state.clock_rate = take();
+    state.gyroscope_bias = take3();
+    for (int k = 0; k < 9; ++k) {
+      state.gyroscope_matrix(k / 3, k % 3) = take();
+    }
+    return state;
+  }
+
+  [[nodiscard]] const ArmLayout& layout() const { return layout_; }
+
+ private:
+  const ArmState& shape_;
+  const ArmLayout& layout_;
+};
+
+// Steps are taken in the layout's coordinates. The cost function gives its derivative in them at once, in the first columns of its
+// Jacobian, which is what PlusJacobian picks out.
+class ArmManifold final : public ceres::Manifold {
+ public:
+  explicit ArmManifold(const FlatState& flat) : flat_(flat) {}
+  int AmbientSize() const override { return flat_.size(); }
+  int TangentSize() const override { return static_cast<int>(flat_.layout().columns); }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    const Eigen::Map<const Eigen::VectorXd> step(delta, TangentSize());
+    flat_.write(moved(flat_.read(x), flat_.layout(), step), x_plus_delta);
+    return true;
+  }
+  bool PlusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobian, AmbientSize(), TangentSize())
+        .setIdentity();
+    return true;
+  }
+  bool Minus(const double*, const double*, double*) const override { return false; }
+  bool MinusJacobian(const double*, double*) const override { return false; }
+
+ private:
+  const FlatState& flat_;
+};
+
+// The whole problem as columns + 1 residuals: the square root of its normal equations. Same cost and gradient at the state and
+// the same Gauss-Newton matrix, at any number of samples.
+class ArmCost final : public ceres::CostFunction {
+ public:
+  ArmCost(const ArmProblem& problem, const FlatState& flat) : problem_(problem), flat_(flat) {
+    set_num_residuals(static_cast<int>(problem.layout.columns) + 1);
+    mutable_parameter_block_sizes()->push_back(flat.size());
+  }
+  bool Evaluate(const double* const* parameters, double* residual, double** jacobians) const override {
+    const ArmState state = flat_.read(parameters[0]);
+    const Index columns = problem_.layout.columns;
+    NormalEquations all = marginal(problem_, linearise_data(problem_, state));
+    all += linearise_prior(problem_, state);
+    // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
+    all.information.diagonal() += 1e-14 * all.information.diagonal();
+    all.information.diagonal().array() += 1e-12;
+    const Eigen::LLT<Eigen::MatrixXd> factor(all.information);
+    if (factor.info() != Eigen::Success) {
+      return false;
+    }
+    Eigen::Map<Eigen::VectorXd> r(residual, columns + 1);
+    r.head(columns) = factor.matrixL().solve(all.gradient);
+    r[columns] = std::sqrt(std::max(0.0, all.cost - r.head(columns).squaredNorm()));
+    if (!r.allFinite()) {
+      return false;
+    }
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], columns + 1,
+                                                                                                 flat_.size());
+      jacobian.setZero();
+      jacobian.topLeftCorner(columns, columns) = factor.matrixU();
+    }
+    return true;
+  }
+
+ private:
+  const ArmProblem& problem_;
+  const FlatState& flat_;
+};
+
+}  // namespace
+
+NormalEquations NormalEquations::zero(Index columns) {
+  return {Eigen::MatrixXd::Zero(columns, columns), Eigen::VectorXd::Zero(columns), 0.0};
+}
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  information += other.information;
+  gradient += other.gradient;
+  cost += other.cost;
+  return *this;
+}
+
+namespace {
+
+// Layout columns first, then all offsets, their prior included.
+NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
+  const Index columns = problem.layout.columns;
+  const Index offsets = problem.rows.offset_std.size();
+  NormalEquations all = NormalEquations::zero(columns + offsets);
+  for (const PartEquations& part : parts) {
+    const auto mine = static_cast<Index>(part.offsets.size());
+    const NormalEquations& equations = part.equations;
+    all.information.topLeftCorner(columns, columns) += equations.information.topLeftCorner(columns, columns);
+    all.gradient.head(columns) += equations.gradient.head(columns);
+    all.cost += equations.cost;
+    for (Index a = 0; a < mine; ++a) {
+      const Index at = columns + part.offsets[static_cast<std::size_t>(a)];
+      all.information.col(at).head(columns) += equations.information.col(columns + a).head(columns);
+      all.information.row(at).head(columns) += equations.information.col(columns + a).head(columns).transpose();
+      all.gradient[at] += equations.gradient[columns + a];
+      for (Index b = 0; b < mine; ++b) {
+        all.information(at, columns + part.offsets[static_cast<std::size_t>(b)]) += equations.information(columns + a, columns + b);
+      }
+    }
+  }
+  const Eigen::ArrayXd precision = problem.rows.offset_std.array().square().inverse();
+  all.information.diagonal().tail(offsets).array() += precision;
+  all.gradient.tail(offsets).array() += precision * problem.offsets.array();
+  all.cost += (precision * problem.offsets.array().square()).sum();
+  return all;
+}
+
+}  // namespace
+
+NormalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
+  const Index columns = problem.layout.columns;
+  const Index offsets = problem.rows.offset_std.size();
+  const NormalEquations all = assemble(problem, parts);
+  NormalEquations reduced{all.information.topLeftCorner(columns, columns), all.gradient.head(columns), all.cost};
+  if (offsets > 0) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
+    const Eigen::MatrixXd coupling = factor.matrixL().solve(all.information.bottomLeftCorner(offsets, columns));
+    const Eigen::VectorXd gradient = factor.matrixL().solve(all.gradient.tail(offsets));
+    reduced.information -= coupling.transpose() * coupling;
+    reduced.gradient -= coupling.transpose() * gradient;
+    reduced.cost -= gradient.squaredNorm();
+  }
+  return reduced;
+}
+
+Eigen::VectorXd best_offsets(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
+  const Index offsets = problem.rows.offset_std.size();
+  if (offsets == 0) {
+    return problem.offsets;
+  }
+  const NormalEquations all = assemble(problem, parts);
+  const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
+  return problem.offsets - factor.solve(all.gradient.tail(offsets));
+}
+
+Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout) {
+  Eigen::VectorXd value = Eigen::VectorXd::Zero(layout.columns);
+  const auto put = [&](Index column, const Eigen::Vector3d& v) {
+    if (column >= 0) {
+      value.segment<3>(column) = v;
+    }
+  };
+  put(layout.up_gravity, state.up_gravity);
+  put(layout.bias, state.sensor.bias);
+  put(layout.scale, state.sensor.scale);
+  put(layout.misalignment, state.sensor.misalignment);
+  put(layout.percussion_distance, state.sensor.percussion_distance);
+  put(layout.second_order, state.sensor.second_order);
+  put(layout.gyroscope_bias, state.gyroscope_bias);
+  const Index joints = state.reference.size();
+  if (layout.clock_offset >= 0) {
+    value[layout.clock_offset] = state.clock_offset;
+  }
+  if (layout.clock_rate >= 0) {
+    value[layout.clock_rate] = state.clock_rate;
+  }
+  if (layout.encoder_gain >= 0) {
+    value.segment(layout.encoder_gain, joints) = state.encoder_gain;
+  }
+  if (layout.eccentricity >= 0) {
+    value.segment(layout.eccentricity, joints) = state.eccentricity.col(0);
+    value.segment(layout.eccentricity + joints, joints) = state.eccentricity.col(1);
+  }
+  if (layout.gyroscope_matrix >= 0) {
+    for (int k = 0; k < 9; ++k) {
+      value[layout.gyroscope_matrix + k] = state.gyroscope_matrix(k / 3, k % 3);
+    }
+  }
+  return value;
+}
+
+std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state) {
+  const std::size_t stretches = problem.rows.stretches.size();
+  std::vector<PartEquations> parts(stretches + problem.rows.dwells.size());
+  const auto finish = [&parts](std::size_t i, const Eigen::MatrixXd& system, const std::vector<Index>& offsets) {
+    parts[i].equations = normal_equations(system);
+    for (const Index joint : joints_with_offset(offsets)) {
+      parts[i].offsets.push_back(offsets[static_cast<std::size_t>(joint)]);
+    }
+  };
+  for_each(problem, state, parts.size(), [&](ArmPredictor& predictor, std::size_t i) {
+    if (i < stretches) {
+      const MovingStretch& stretch = problem.rows.stretches[i];
+      Eigen::MatrixXd system = stretch_system(problem, predictor, stretch);
+      whiten_stretch(problem.noise.kinds[static_cast<std::size_t>(stretch.noise)], stretch.rows(), system);
+      finish(i, system, stretch.offsets);
+      return;
+    }
+    const DwellRow& dwell = problem.rows.dwells[i - stretches];
+    DwellSystem system = dwell_system(problem, predictor, dwell);
+    system.variance.diagonal() += problem.noise.dwell_excess.cwiseAbs2();
+    const Eigen::LLT<Eigen::MatrixXd> factor(system.variance);
+    factor.matrixL().solveInPlace(system.rows);
+    finish(i, system.rows, dwell.offsets);
+  });
+  return parts;
+}
+
+NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state) {
+  NormalEquations all = NormalEquations::zero(problem.layout.columns);
+  if (problem.layout.up_gravity >= 0 && std::isfinite(problem.prior.gravity_std)) {
+    const double residual = (state.up_gravity.norm() - problem.prior.gravity) / problem.prior.gravity_std;
+    const Eigen::Vector3d slope = state.up_gravity.normalized() / problem.prior.gravity_std;
+    all.information.block<3, 3>(problem.layout.up_gravity, problem.layout.up_gravity) = slope * slope.transpose();
+    all.gradient.segment<3>(problem.layout.up_gravity) = slope * residual;
+    all.cost = residual * residual;
+  }
+  return all;
+}
+
+NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state) {
+  NormalEquations all = linearise_gravity(problem, state);
+  const Eigen::VectorXd value = values(state, problem.layout);
+  for (const PriorTerm& term : problem.prior.terms) {
+    const Index size = term.mean.size();
+    const Eigen::VectorXd residual = term.root * (value.segment(term.column, size) - term.mean);
+    all.information.block(term.column, term.column, size, size) += term.root.transpose() * term.root;
+    all.gradient.segment(term.column, size) += term.root.transpose() * residual;
+    all.cost += residual.squaredNorm();
+  }
+  return all;
+}
+
+ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
+  const std::size_t stretches = problem.rows.stretches.size();
+  const Index channels = problem.rows.channels;
+  const auto dwells = static_cast<Index>(problem.rows.dwells.size());
+  ArmResiduals result;
+  result.moving.resize(stretches);
+  result.whitened.resize(stretches);
+  result.dwells.resize(dwells, channels);
+  result.dwell_variance.resize(dwells, channels);
+  result.dwells_normalized.resize(dwells, channels);
+  for_each(problem, state, stretches, [&](ArmPredictor& predictor, std::size_t i) {
+    const MovingStretch& stretch = problem.rows.stretches[i];
+    JointInstant instant;
+    const Eigen::VectorXd shifted = shift(problem, stretch.offsets, stretch.position.cols());
+    result.moving[i].resize(stretch.rows(), channels);
+    for (Index row = 0; row < stretch.rows(); ++row) {
+      set_instant(stretch, row, problem.rows.middle, shifted, instant);
+      result.moving[i].row(row).head<3>() = predictor.reading(instant) - stretch.reading.row(row).head<3>().transpose();
+      if (channels == 6) {
+        result.moving[i].row(row).tail<3>() = predictor.angular_rate() - stretch.reading.row(row).tail<3>().transpose();
+      }
+    }
+    Eigen::MatrixXd column = result.moving[i].reshaped(result.moving[i].size(), 1);
+    whiten_stretch(problem.noise.kinds[static_cast<std::size_t>(stretch.noise)], stretch.rows(), column);
+    result.whitened[i] = column.reshaped(stretch.rows(), channels);
+  });
+  ArmPredictor predictor(state, problem.layout);
+  for (Index i = 0; i < dwells; ++i) {
+    DwellSystem system = dwell_system(problem, predictor, problem.rows.dwells[static_cast<std::size_t>(i)]);
+    const Eigen::VectorXd residual = system.rows.col(system.rows.cols() - 1);
+    result.dwells.row(i) = residual;
+    result.dwell_variance.row(i) = system.variance.diagonal();
+    system.variance.diagonal() += problem.noise.dwell_excess.cwiseAbs2();
+    const Eigen::LLT<Eigen::MatrixXd> factor(system.variance);
+    result.dwells_normalized.row(i) = factor.matrixL().solve(residual);
+  }
+  return result;
+}
+
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations) {
+  const FlatState flat(start, problem.layout);
+  std::vector<double> block(static_cast<std::size_t>(flat.size()));
+  flat.write(start, block.data());
+  ceres::Problem ceres_problem;
+  ceres_problem.AddParameterBlock(block.data(), flat.size(), new ArmManifold(flat));
+  ceres_problem.AddResidualBlock(new ArmCost(problem, flat), nullptr, block.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-11;
+  options.gradient_tolerance = 1e-14;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_problem, &summary);
+  ArmSolution solution;
+  solution.state = flat.read(block.data());
+  solution.cost = 2.0 * summary.final_cost;
+  solution.iterations = static_cast<int>(summary.iterations.size());
+  solution.converged = summary.termination_type == ceres::CONVERGENCE;
+  return solution;
+}
+
+}  // namespace circlepoint

@@ -1,0 +1,85 @@
+#pragma once
+// The whole-arm least-squares problem: rows, noise and priors, linearised about a state.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "arm_model.hpp"
+#include "arm_noise.hpp"
+#include "arm_rows.hpp"
+
+namespace circlepoint {
+
+// Gaussian knowledge of some neighbouring columns' values: root (value - mean) is standard normal.
+struct PriorTerm {
+  Index column = 0;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd root;
+};
+
+struct ArmPrior {
+  std::vector<PriorTerm> terms;
+  double gravity = standard_gravity;  // m/s^2
+  double gravity_std = 1e-6;          // m/s^2; infinite: the magnitude is free
+  bool gravity_known = true;          // the magnitude is a datum, not a belief
+};
+
+// Sums over rows: information J^T W J, gradient J^T W r with r = model - reading, cost r^T W r.
+struct NormalEquations {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+  double cost = 0.0;
+
+  static NormalEquations zero(Index columns);
+  NormalEquations& operator+=(const NormalEquations& other);
+};
+
+// One stretch or dwell: the layout's columns, then one for each shared offset it knows.
+struct PartEquations {
+  NormalEquations equations;
+  std::vector<Index> offsets;
+};
+
+struct ArmProblem {
+  ArmRows rows;
+  ArmLayout layout;
+  ArmPrior prior;
+  ArmNoise noise;
+  Eigen::VectorXd offsets;  // (K) where the shared offsets are linearised
+  unsigned threads = 1;
+};
+
+struct ArmResiduals {
+  StretchResiduals moving;        // (M, channels) each, model - reading
+  StretchResiduals whitened;      // the same whitened
+  Eigen::MatrixXd dwells;         // (D, channels)
+  Eigen::MatrixXd dwell_variance; // (D, channels) by their samples' scatter and the encoders
+  Eigen::MatrixXd dwells_normalized;  // (D, channels)
+};
+
+// Current values of the layout's columns; a line's are zero.
+Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout);
+
+// Data part: stretches first, in order, then each dwell.
+std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state);
+NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state);
+// The part of it that the magnitude of gravity makes, which counts as data where that is known.
+NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state);
+// All parts in the layout's columns alone: the offsets are minimised over under their prior (Schur complement).
+NormalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts);
+// The offsets that minimise the same at the state the parts were linearised at, for the layout's columns as they are.
+Eigen::VectorXd best_offsets(const ArmProblem& problem, const std::vector<PartEquations>& parts);
+
+ArmResiduals residuals(const ArmProblem& problem, const ArmState& state);
+
+struct ArmSolution {
+  ArmState state;
+  double cost = 0.0;
+  int iterations = 0;
+  bool converged = false;
+};
+
+// Levenberg-Marquardt (Ceres) with the noise as it is.
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations);
+
+}  // namespace circlepoint

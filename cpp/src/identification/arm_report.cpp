@@ -1,0 +1,268 @@
+#include "arm_report.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+namespace circlepoint {
+namespace {
+
+constexpr double invisible = 1e-10;  // of the scaled information's largest eigenvalue: below it nothing is seen
+
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", value);
+  return text.data();
+}
+
+std::string joint_of(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string::npos ? std::string() : name.substr(0, dot);
+}
+
+// What to record, by which parameters are tangled.
+std::string remedy(const std::vector<std::string>& names) {
+  bool line = false;
+  bool sensor = false;
+  std::vector<std::string> joints;
+  for (const std::string& name : names) {
+    const std::string joint = joint_of(name);
+    line = line || !joint.empty();
+    sensor = sensor || joint.empty();
+    if (!joint.empty() && std::find(joints.begin(), joints.end(), joint) == joints.end()) {
+      joints.push_back(joint);
+    }
+  }
+  std::string who;
+  for (const std::string& joint : joints) {
+    who += (who.empty() ? "" : ", ") + joint;
+  }
+  if (line && sensor) {
+    return "turn the joints beyond " + who + " to other angles and repeat " + (joints.size() == 1 ? "its" : "their") +
+           " motion there, so that gravity meets the sensor from other sides";
+  }
+  if (line) {
+    return "move " + who + (joints.size() == 1 ? " alone, farther and faster" : " one at a time, each farther and faster");
+  }
+  return "hold still at more orientations of the sensor, six or more well apart";
+}
+
+// Shortens "joint2.d1, joint2.d2, joint2.p1" for reading.
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : " with ") + name;
+  }
+  return text;
+}
+
+StretchResidual describe(const std::string& name) {
+  StretchResidual entry;
+  entry.name = name;
+  entry.begin = std::numeric_limits<double>::infinity();
+  entry.end = -std::numeric_limits<double>::infinity();
+  return entry;
+}
+
+ArmProblem without_rows(const ArmProblem& problem) {
+  ArmProblem empty;
+  empty.rows.channels = problem.rows.channels;
+  empty.rows.middle = problem.rows.middle;
+  empty.layout = problem.layout;
+  empty.noise = problem.noise;
+  empty.offsets = problem.offsets;
+  return empty;
+}
+
+// A part in the layout's columns, its offsets minimised over as if no other part knew them.
+NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part) {
+  ArmProblem alone;
+  alone.layout = problem.layout;
+  const auto count = static_cast<Index>(part.offsets.size());
+  alone.offsets.resize(count);
+  alone.rows.offset_std.resize(count);
+  PartEquations renumbered = part;
+  for (Index k = 0; k < count; ++k) {
+    const Index offset = part.offsets[static_cast<std::size_t>(k)];
+    alone.offsets[k] = problem.offsets[offset];
+    alone.rows.offset_std[k] = problem.rows.offset_std[offset];
+    renumbered.offsets[static_cast<std::size_t>(k)] = k;
+  }
+  return marginal(alone, {renumbered});
+}
+
+// The state the estimate would have been without one part, to first order.
+ArmState without(const ArmProblem& problem, const ArmState& state, const PartEquations& part, const Eigen::MatrixXd& information) {
+  const NormalEquations mine = marginal_part(problem, part);
+  const Eigen::MatrixXd rest = information - mine.information;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(rest);
+  const Eigen::VectorXd step = factor.solve(mine.gradient);
+  return step.allFinite() ? moved(state, problem.layout, step) : state;
+}
+
+}  // namespace
+
+std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout& layout) {
+  std::vector<std::string> names(static_cast<std::size_t>(layout.columns));
+  const auto put = [&](Index column, const std::string& name) { names[static_cast<std::size_t>(column)] = name; };
+  const std::array<const char*, 4> line{"d1", "d2", "p1", "p2"};
+  for (std::size_t i = 0; i < state.axes.size(); ++i) {
+    const int count = state.axes[i].type == JointType::revolute ? 4 : 2;
+    for (int k = 0; layout.lines[i] >= 0 && k < count; ++k) {
+      put(layout.lines[i] + k, "joint" + std::to_string(i + 1) + "." + line[static_cast<std::size_t>(k)]);
+    }
+  }
+  const auto triple = [&](Index column, const std::string& name, const std::array<const char*, 3>& suffix) {
+    for (int k = 0; column >= 0 && k < 3; ++k) {
+      put(column + k, name + "_" + suffix[static_cast<std::size_t>(k)]);
+    }
+  };
+  const std::array<const char*, 3> xyz{"x", "y", "z"};
+  triple(layout.up_gravity, "gravity", xyz);
+  triple(layout.bias, "bias", xyz);
+  triple(layout.scale, "scale", xyz);
+  triple(layout.misalignment, "misalignment", {"yx", "zx", "zy"});
+  triple(layout.percussion_distance, "percussion_distance", xyz);
+  triple(layout.second_order, "second_order", xyz);
+  triple(layout.gyroscope_bias, "gyroscope_bias", xyz);
+  if (layout.clock_offset >= 0) {
+    put(layout.clock_offset, "clock_offset");
+  }
+  if (layout.clock_rate >= 0) {
+    put(layout.clock_rate, "clock_rate");
+  }
+  const auto joints = static_cast<Index>(state.axes.size());
+  for (Index j = 0; j < joints; ++j) {
+    const std::string joint = "joint" + std::to_string(j + 1);
+    if (layout.encoder_gain >= 0) {
+      put(layout.encoder_gain + j, joint + ".gain");
+    }
+    if (layout.eccentricity >= 0) {
+      put(layout.eccentricity + j, joint + ".eccentricity_cos");
+      put(layout.eccentricity + joints + j, joint + ".eccentricity_sin");
+    }
+  }
+  for (int k = 0; layout.gyroscope_matrix >= 0 && k < 9; ++k) {
+    put(layout.gyroscope_matrix + k,
+        std::string("gyroscope_") + xyz[static_cast<std::size_t>(k / 3)] + xyz[static_cast<std::size_t>(k % 3)]);
+  }
+  return names;
+}
+
+Identifiability identifiability(const NormalEquations& data, const Eigen::MatrixXd& covariance, const ArmState& state,
+                                const ArmLayout& layout) {
+  const Index columns = layout.columns;
+  const Eigen::VectorXd root = data.information.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * data.information * root.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
+  const double largest = eigenvalues[columns - 1];
+  Identifiability result;
+  result.rank = static_cast<int>((eigenvalues.array() > invisible * largest).count());
+  result.condition_number = largest / std::max(eigenvalues[0], 1e-300);
+  result.data_std = Eigen::VectorXd::Zero(columns);
+  for (Index k = 0; k < columns; ++k) {
+    const Eigen::VectorXd vector = solver.eigenvectors().col(k).cwiseQuotient(root);
+    if (eigenvalues[k] > invisible * largest) {
+      result.data_std += vector.cwiseAbs2() / eigenvalues[k];
+    } else {
+      for (Index c = 0; c < columns; ++c) {
+        if (std::abs(solver.eigenvectors()(c, k)) > 1e-3) {
+          result.data_std[c] = std::numeric_limits<double>::infinity();
+        }
+      }
+    }
+  }
+  result.data_std = result.data_std.cwiseSqrt();
+
+  // Along a weak direction: which parameters take part (by their own standard deviations without priors) and how far it reaches.
+  const std::vector<std::string> names = parameter_names(state, layout);
+  for (Index k = 0; k < columns && result.weak.size() < 6; ++k) {
+    if (eigenvalues[k] > 1e-5 * largest) {
+      break;
+    }
+    const Eigen::VectorXd vector = solver.eigenvectors().col(k);
+    std::vector<Index> order(static_cast<std::size_t>(columns));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return std::abs(vector[a]) > std::abs(vector[b]); });
+    std::vector<std::string> parts;
+    double share = 0.0;
+    for (const Index c : order) {
+      if (share > 0.9 || parts.size() >= 4) {
+        break;
+      }
+      share += vector[c] * vector[c];
+      parts.push_back(names[static_cast<std::size_t>(c)]);
+    }
+    const Index main = order[0];
+    WeakCombination weak;
+    weak.information_ratio = std::max(0.0, eigenvalues[k] / largest);
+    const double alone = 1.0 / (root[main] * std::sqrt(std::max(eigenvalues[k], 1e-300))) * std::abs(vector[main]);
+    weak.description = listed(parts) + (eigenvalues[k] > invisible * largest
+                                            ? ": the data alone leave " + names[static_cast<std::size_t>(main)] + " at +- " +
+                                                  short_number(alone)
+                                            : ": the data do not show it at all") +
+                       ", with what is known beforehand +- " + short_number(std::sqrt(covariance(main, main))) + "; " + remedy(parts);
+    result.weak.push_back(std::move(weak));
+  }
+  return result;
+}
+
+std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState& state, const std::vector<PartEquations>& parts,
+                                      const Eigen::MatrixXd& information, const ArmResiduals& residuals_in) {
+  const auto joints = static_cast<Index>(state.axes.size());
+  std::vector<StretchResidual> entries;
+  std::vector<Index> entry_of(static_cast<std::size_t>(joints) + 1, -1);
+  const std::size_t stretches = problem.rows.stretches.size();
+  for (std::size_t i = 0; i < stretches; ++i) {
+    const MovingStretch& stretch = problem.rows.stretches[i];
+    const auto slot = static_cast<std::size_t>(stretch.joint >= 0 ? stretch.joint : joints);
+    if (entry_of[slot] < 0) {
+      entry_of[slot] = static_cast<Index>(entries.size());
+      entries.push_back(describe(stretch.joint >= 0 ? "joint " + std::to_string(stretch.joint + 1) : "several joints"));
+    }
+    StretchResidual& entry = entries[static_cast<std::size_t>(entry_of[slot])];
+    ArmProblem alone = without_rows(problem);
+    alone.rows.stretches = {stretch};
+    const ArmResiduals held = residuals(alone, without(problem, state, parts[i], information));
+    entry.begin = std::min(entry.begin, stretch.time[0]);
+    entry.end = std::max(entry.end, stretch.time[stretch.rows() - 1]);
+    entry.samples += stretch.rows();
+    entry.residual_rms += residuals_in.moving[i].leftCols<3>().squaredNorm();
+    entry.normalized_rms += residuals_in.whitened[i].leftCols<3>().squaredNorm();
+    entry.held_out_rms += held.moving[0].leftCols<3>().squaredNorm();
+    entry.held_out_normalized_rms += held.whitened[0].leftCols<3>().squaredNorm();
+  }
+  if (!problem.rows.dwells.empty()) {
+    StretchResidual entry = describe("dwells");
+    for (std::size_t i = 0; i < problem.rows.dwells.size(); ++i) {
+      ArmProblem alone = without_rows(problem);
+      alone.rows.dwells = {problem.rows.dwells[i]};
+      const ArmResiduals held = residuals(alone, without(problem, state, parts[stretches + i], information));
+      const auto row = static_cast<Index>(i);
+      entry.begin = std::min(entry.begin, problem.rows.dwells[i].time);
+      entry.end = std::max(entry.end, problem.rows.dwells[i].time);
+      ++entry.samples;
+      entry.residual_rms += residuals_in.dwells.row(row).head<3>().squaredNorm();
+      entry.normalized_rms += residuals_in.dwells_normalized.row(row).head<3>().squaredNorm();
+      entry.held_out_rms += held.dwells.leftCols<3>().squaredNorm();
+      entry.held_out_normalized_rms += held.dwells_normalized.leftCols<3>().squaredNorm();
+    }
+    entries.push_back(entry);
+  }
+  for (StretchResidual& entry : entries) {
+    const double count = 3.0 * static_cast<double>(entry.samples);
+    entry.residual_rms = std::sqrt(entry.residual_rms / count);
+    entry.normalized_rms = std::sqrt(entry.normalized_rms / count);
+    entry.held_out_rms = std::sqrt(entry.held_out_rms / count);
+    entry.held_out_normalized_rms = std::sqrt(entry.held_out_normalized_rms / count);
+  }
+  return entries;
+}
+
+}  // namespace circlepoint

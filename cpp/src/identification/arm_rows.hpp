@@ -1,0 +1,54 @@
+#pragma once
+// A recording as what the whole-arm estimate compares: means of dwells, and low-passed, thinned-out moving stretches.
+
+#include <string>
+#include <vector>
+
+#include "circlepoint/conditioning/segmentation.hpp"
+#include "circlepoint/identification/whole_arm.hpp"
+#include "circlepoint/recording/recording.hpp"
+
+namespace circlepoint {
+
+struct MovingStretch {
+  Index joint = -1;        // the one joint that moves, or -1
+  Index noise = 0;         // kind of motion: stretches of one kind share their noise model
+  Eigen::VectorXd time;    // (M) s
+  SamplesX position;       // (M, n)
+  SamplesX velocity;       // (M, n)
+  SamplesX acceleration;   // (M, n)
+  SamplesX jerk;           // (M, n)
+  SamplesX reading;        // (M, 3), or (M, 6) with angular rate
+  std::vector<Index> offsets;  // (n) the count each joint rests on meanwhile, into ArmRows::offset_std; -1: it moves
+  [[nodiscard]] Index rows() const { return time.size(); }
+};
+
+struct DwellRow {
+  Eigen::VectorXd position;                             // (n)
+  Eigen::VectorXd position_variance;                    // (n), of what the encoders do not resolve, for this dwell only
+  std::vector<Index> offsets;                           // (n) the count it rests on, where other rows share it; else -1
+  Eigen::VectorXd reading;                              // (3) or (6)
+  Eigen::VectorXd variance;                             // (3) or (6), of the mean by its samples' scatter
+  double time = 0.0;                                    // s, middle
+  Index samples = 0;
+};
+
+// A joint at rest stands somewhere within its encoder's count, and stays there: whatever shares that rest shares the error.
+// Offsets of rests that several rows share are parameters (with the count as their prior); others are noise of their row.
+struct ArmRows {
+  std::vector<DwellRow> dwells;
+  std::vector<MovingStretch> stretches;
+  Eigen::VectorXd offset_std;  // (K) rad or m, prior of each shared offset
+  double cutoff = 0.0;      // Hz
+  double rate = 0.0;        // Hz, of the thinned-out rows
+  double middle = 0.0;      // s
+  Index channels = 3;       // 6 with a gyroscope
+  Index samples = 0;        // of the recording, used
+};
+
+double choose_common_cutoff(const Recording& recording, const Eigen::VectorXd& resolution);
+
+ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
+                  bool gyroscope);
+
+}  // namespace circlepoint

@@ -1,0 +1,118 @@
+#include "arm_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "circlepoint/core/random.hpp"
+
+namespace circlepoint {
+namespace {
+
+constexpr Index rows_for_starting = 600;
+
+// Every k-th row of every stretch and all dwells (at most as many), weighted alike.
+ArmRows thin(const ArmRows& rows) {
+  ArmRows thinned = rows;
+  thinned.stretches.clear();
+  Index total = 0;
+  for (const MovingStretch& stretch : rows.stretches) {
+    total += stretch.rows();
+  }
+  const Index step = std::max<Index>(1, total / rows_for_starting);
+  Index offset = 0;
+  for (const MovingStretch& stretch : rows.stretches) {
+    std::vector<Index> keep;
+    for (Index i = offset; i < stretch.rows(); i += step) {
+      keep.push_back(i);
+    }
+    offset = keep.empty() ? offset - stretch.rows() : keep.back() + step - stretch.rows();
+    if (keep.empty()) {
+      continue;
+    }
+    MovingStretch piece;
+    piece.joint = stretch.joint;
+    piece.offsets = stretch.offsets;
+    piece.time = stretch.time(keep);
+    piece.position = stretch.position(keep, Eigen::all);
+    piece.velocity = stretch.velocity(keep, Eigen::all);
+    piece.acceleration = stretch.acceleration(keep, Eigen::all);
+    piece.jerk = stretch.jerk(keep, Eigen::all);
+    piece.reading = stretch.reading(keep, Eigen::all);
+    thinned.stretches.push_back(std::move(piece));
+  }
+  const std::size_t dwell_step = std::max<std::size_t>(1, rows.dwells.size() / 100);
+  thinned.dwells.clear();
+  for (std::size_t i = 0; i < rows.dwells.size(); i += dwell_step) {
+    thinned.dwells.push_back(rows.dwells[i]);
+  }
+  return thinned;
+}
+
+Eigen::Vector3d random_direction(RandomSource& random) {
+  const Eigen::Vector3d v(random.normal(), random.normal(), random.normal());
+  return v.normalized();
+}
+
+}  // namespace
+
+ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, const std::vector<bool>& known,
+                    const std::vector<bool>& moves, int random_starts, std::uint64_t seed) {
+  ArmStart best;
+  best.state = known_state;
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (moves[i] && !known[i]) {
+      unknown.push_back(i);
+    }
+  }
+  if (unknown.empty()) {
+    best.found = true;
+    return best;
+  }
+  ArmProblem small;
+  small.rows = thin(problem.rows);
+  small.prior.gravity = problem.prior.gravity;
+  small.prior.gravity_std = 0.1;
+  small.noise = white_noise(small.rows, 0.3, 0.3, 0.03);
+  small.offsets = Eigen::VectorXd::Zero(small.rows.offset_std.size());
+  small.threads = problem.threads;
+  small.layout.lines.assign(moves.size(), -1);
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (moves[i]) {
+      small.layout.lines[i] = small.layout.columns;
+      small.layout.columns += known_state.axes[i].type == JointType::revolute ? 4 : 2;
+    }
+  }
+  small.layout.up_gravity = small.layout.columns;
+  small.layout.columns += 3;
+
+  double best_cost = std::numeric_limits<double>::infinity();
+  int repeats = 0;
+  for (int trial = 0; trial < random_starts && repeats < 3; ++trial) {
+    RandomSource random(derive_seed(seed, static_cast<std::uint64_t>(trial)));
+    ArmState start = known_state;
+    for (const std::size_t joint : unknown) {
+      start.axes[joint].line = Line{random_direction(random), Eigen::Vector3d::Zero()};
+    }
+    if (start.up_gravity.norm() < 1.0) {
+      start.up_gravity = problem.prior.gravity * random_direction(random);
+    }
+    ArmSolution solution = solve(small, start, 60);
+    ++best.tried;
+    if (!std::isfinite(solution.cost)) {
+      continue;
+    }
+    if (solution.cost < 0.98 * best_cost) {
+      best_cost = solution.cost;
+      best.state = solution.state;
+      repeats = 1;
+    } else if (solution.cost < 1.02 * best_cost) {
+      ++repeats;
+    }
+  }
+  best.found = repeats > 1;
+  return best;
+}
+
+}  // namespace circlepoint
