@@ -12,60 +12,59 @@ namespace circlepoint {
 namespace {
 
 // What the shared offsets add to the joints' positions.
-Eigen::VectorXd shift(const ArmProblem& problem, const std::vector<Index>& offsets, Index joints) {
-  Eigen::VectorXd added = Eigen::VectorXd::Zero(joints);
-  for (std::size_t joint = 0; joint < offsets.size(); ++joint) {
-    if (offsets[joint] >= 0) {
-      added[static_cast<Index>(joint)] = problem.offsets[offsets[joint]];
-    }
+void shift(const ArmProblem& problem, const std::vector<OffsetTerm>& offsets, Eigen::VectorXd& position) {
+  for (const OffsetTerm& term : offsets) {
+    position[term.joint] += problem.offsets[term.parameter];
   }
-  return added;
 }
 
-// The joints whose offset is a column, and their offsets.
-std::vector<Index> joints_with_offset(const std::vector<Index>& offsets) {
-  std::vector<Index> joints;
-  for (std::size_t joint = 0; joint < offsets.size(); ++joint) {
-    if (offsets[joint] >= 0) {
-      joints.push_back(static_cast<Index>(joint));
-    }
-  }
-  return joints;
-}
-
-void set_instant(const MovingStretch& stretch, Index row, double middle, const Eigen::VectorXd& shifted, JointInstant& instant) {
+void set_instant(const MovingStretch& stretch, Index row, double middle, const ArmProblem& problem, JointInstant& instant) {
   instant.time_from_middle = stretch.time[row] - middle;
-  instant.position = stretch.position.row(row).transpose() + shifted;
+  instant.position = stretch.position.row(row);
+  shift(problem, stretch.offsets, instant.position);
   instant.velocity = stretch.velocity.row(row);
   instant.acceleration = stretch.acceleration.row(row);
   instant.jerk = stretch.jerk.row(row);
 }
 
-void set_instant(const DwellRow& dwell, double middle, const Eigen::VectorXd& shifted, JointInstant& instant) {
+void set_instant(const DwellRow& dwell, double middle, const ArmProblem& problem, JointInstant& instant) {
   instant.time_from_middle = dwell.time - middle;
-  instant.position = dwell.position + shifted;
+  instant.position = dwell.position;
+  shift(problem, dwell.offsets, instant.position);
   instant.velocity = Eigen::VectorXd::Zero(dwell.position.size());
   instant.acceleration = instant.velocity;
   instant.jerk = instant.velocity;
+}
+
+// d reading / d parameter of every offset term at the instant evaluated last.
+void fill_by_offset(const ArmPredictor& predictor, const std::vector<OffsetTerm>& offsets,
+                    Eigen::Ref<Eigen::MatrixXd> derivative) {
+  if (offsets.empty()) {
+    return;
+  }
+  const Eigen::MatrixXd by_joint = predictor.by_joint_offset();
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    derivative.col(static_cast<Index>(k)) = by_joint.col(offsets[k].joint);
+  }
 }
 
 // Rows (channel-major) of Jacobian, last column residual.
 Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predictor, const MovingStretch& stretch) {
   const Index rows = stretch.rows();
   const Index columns = problem.layout.columns;
-  const std::vector<Index> resting = joints_with_offset(stretch.offsets);
-  const Index last = columns + static_cast<Index>(resting.size());
+  const auto terms = static_cast<Index>(stretch.offsets.size());
+  const Index last = columns + terms;
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows * problem.rows.channels, last + 1);
   Eigen::MatrixXd jacobian(3, columns);
-  const Eigen::VectorXd shifted = shift(problem, stretch.offsets, stretch.position.cols());
   JointInstant instant;
+  Eigen::MatrixXd by_offset(3, terms);
   for (Index i = 0; i < rows; ++i) {
-    set_instant(stretch, i, problem.rows.middle, shifted, instant);
+    set_instant(stretch, i, problem.rows.middle, problem, instant);
     const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
-    const Eigen::MatrixXd by_offset = predictor.by_joint_offset();
+    fill_by_offset(predictor, stretch.offsets, by_offset);
     for (int channel = 0; channel < 3; ++channel) {
       system.row(channel * rows + i).head(columns) = jacobian.row(channel);
-      system.row(channel * rows + i).segment(columns, last - columns) = by_offset(channel, resting);
+      system.row(channel * rows + i).segment(columns, terms) = by_offset.row(channel);
       system(channel * rows + i, last) = reading[channel] - stretch.reading(i, channel);
     }
     if (problem.rows.channels == 6) {
@@ -87,17 +86,17 @@ struct DwellSystem {
 DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, const DwellRow& dwell) {
   const Index columns = problem.layout.columns;
   const Index channels = problem.rows.channels;
-  const std::vector<Index> resting = joints_with_offset(dwell.offsets);
-  const Index last = columns + static_cast<Index>(resting.size());
+  const auto terms = static_cast<Index>(dwell.offsets.size());
+  const Index last = columns + terms;
   DwellSystem system{Eigen::MatrixXd::Zero(channels, last + 1), Eigen::MatrixXd(dwell.variance.asDiagonal())};
   JointInstant instant;
-  set_instant(dwell, problem.rows.middle, shift(problem, dwell.offsets, dwell.position.size()), instant);
+  set_instant(dwell, problem.rows.middle, problem, instant);
   Eigen::MatrixXd jacobian(3, columns);
   const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
   system.rows.topLeftCorner(3, columns) = jacobian;
   system.rows.col(last).head<3>() = reading - dwell.reading.head<3>();
   const Eigen::MatrixXd by_offset = predictor.by_joint_offset();
-  system.rows.block(0, columns, 3, last - columns) = by_offset(Eigen::all, resting);
+  fill_by_offset(predictor, dwell.offsets, system.rows.block(0, columns, 3, terms));
   system.variance.topLeftCorner<3, 3>() += by_offset * dwell.position_variance.asDiagonal() * by_offset.transpose();
   if (channels == 6) {
     const Eigen::Vector3d rate = predictor.angular_rate(jacobian);
@@ -392,10 +391,10 @@ Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout) {
 std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state) {
   const std::size_t stretches = problem.rows.stretches.size();
   std::vector<PartEquations> parts(stretches + problem.rows.dwells.size());
-  const auto finish = [&parts](std::size_t i, const Eigen::MatrixXd& system, const std::vector<Index>& offsets) {
+  const auto finish = [&parts](std::size_t i, const Eigen::MatrixXd& system, const std::vector<OffsetTerm>& offsets) {
     parts[i].equations = normal_equations(system);
-    for (const Index joint : joints_with_offset(offsets)) {
-      parts[i].offsets.push_back(offsets[static_cast<std::size_t>(joint)]);
+    for (const OffsetTerm& term : offsets) {
+      parts[i].offsets.push_back(term.parameter);
     }
   };
   for_each(problem, state, parts.size(), [&](ArmPredictor& predictor, std::size_t i) {
@@ -454,10 +453,9 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
   for_each(problem, state, stretches, [&](ArmPredictor& predictor, std::size_t i) {
     const MovingStretch& stretch = problem.rows.stretches[i];
     JointInstant instant;
-    const Eigen::VectorXd shifted = shift(problem, stretch.offsets, stretch.position.cols());
     result.moving[i].resize(stretch.rows(), channels);
     for (Index row = 0; row < stretch.rows(); ++row) {
-      set_instant(stretch, row, problem.rows.middle, shifted, instant);
+      set_instant(stretch, row, problem.rows.middle, problem, instant);
       result.moving[i].row(row).head<3>() = predictor.reading(instant) - stretch.reading.row(row).head<3>().transpose();
       if (channels == 6) {
         result.moving[i].row(row).tail<3>() = predictor.angular_rate() - stretch.reading.row(row).tail<3>().transpose();

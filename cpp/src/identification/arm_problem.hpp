@@ -37,7 +37,7 @@ struct NormalEquations {
 // One stretch or dwell: the layout's columns, then one for each shared offset it knows.
 struct PartEquations {
   NormalEquations equations;
-  std::vector<Index> offsets;
+  std::vector<Index> offsets;  // their parameters
 };
 
 struct ArmProblem {

@@ -11,41 +11,53 @@ namespace circlepoint {
 namespace {
 
 constexpr int filter_order = 4;
+constexpr double slowest_cutoff = 1.0;   // Hz
+constexpr double coarse_count = 1e-4;    // rad: finer encoders see what their joints yield
+constexpr double few_counts = 50.0;
 constexpr Index shortest_stretch = 12;  // rows
 constexpr Index longest_stretch = 500;
 
-struct SmoothSpan {
-  IndexRange samples;
+struct SmoothJoints {
+  double cutoff = 0.0;  // Hz
   SamplesX position;
   SamplesX velocity;
   SamplesX acceleration;
   SamplesX jerk;
+};
+
+struct SmoothSpan {
+  IndexRange samples;
+  std::vector<SmoothJoints> joints;  // by falling cut-off, the common one first
   SamplesX reading;
   Index usable_begin = 0;  // first and last samples not spoilt by the span's ends, in the recording's indices
   Index usable_end = 0;
 };
 
+SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate) {
+  const auto pad = std::min<Index>(samples.rows() - 1, static_cast<Index>(std::lround(4.0 * rate / cutoff)));
+  return sosfiltfilt(butter(filter_order, cutoff, rate), samples, PadType::even, pad);
+}
+
 // Time reversal leaves the model as it is where all joints stand still: a mirrored continuation is then exact, and only a span
 // that begins or ends in motion loses a filter length.
-SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool gyroscope) {
+SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope) {
   const double rate = recording.sample_rate;
-  const Index channels = gyroscope ? 6 : 3;
-  const Index joints = recording.joints();
-  SamplesX both(span.size(), joints + channels);
-  both.leftCols(joints) = recording.joint_positions.middleRows(span.begin, span.size());
-  both.middleCols(joints, 3) = recording.specific_force.middleRows(span.begin, span.size());
-  if (gyroscope) {
-    both.rightCols(3) = recording.angular_velocity->middleRows(span.begin, span.size());
-  }
-  const auto pad = std::min<Index>(span.size() - 1, static_cast<Index>(std::lround(4.0 * rate / cutoff)));
-  both = sosfiltfilt(butter(filter_order, cutoff, rate), both, PadType::even, pad);
   SmoothSpan result;
   result.samples = span;
-  result.position = both.leftCols(joints);
-  result.reading = both.rightCols(channels);
-  result.velocity = savgol_filter(result.position, 7, 6, 1, 1.0 / rate);
-  result.acceleration = savgol_filter(result.position, 7, 6, 2, 1.0 / rate);
-  result.jerk = savgol_filter(result.position, 7, 6, 3, 1.0 / rate);
+  const SamplesX position = recording.joint_positions.middleRows(span.begin, span.size());
+  for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
+    SmoothJoints joints{mine, low_pass(position, mine, rate), {}, {}, {}};
+    joints.velocity = savgol_filter(joints.position, 7, 6, 1, 1.0 / rate);
+    joints.acceleration = savgol_filter(joints.position, 7, 6, 2, 1.0 / rate);
+    joints.jerk = savgol_filter(joints.position, 7, 6, 3, 1.0 / rate);
+    result.joints.push_back(std::move(joints));
+  }
+  SamplesX reading(span.size(), gyroscope ? 6 : 3);
+  reading.leftCols(3) = recording.specific_force.middleRows(span.begin, span.size());
+  if (gyroscope) {
+    reading.rightCols(3) = recording.angular_velocity->middleRows(span.begin, span.size());
+  }
+  result.reading = low_pass(reading, cutoff, rate);
   const auto run_in = std::min<Index>(span.size() / 4, static_cast<Index>(std::lround(2.5 * rate / cutoff)));
   const auto still = [&](Index from) {
     const auto edge = recording.joint_positions.middleRows(from, run_in);
@@ -56,6 +68,33 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
   result.usable_begin = span.begin + (run_in > 1 && still(span.begin) ? 3 : run_in);
   result.usable_end = span.end - (run_in > 1 && still(span.end - run_in) ? 3 : run_in);
   return result;
+}
+
+// A joint that only yields shows as a staircase of few counts, and its steps differentiated twice are worse than nothing: what it
+// really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
+std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
+  const Index begin = moving.begin - span.samples.begin;
+  const SmoothJoints& widest = span.joints.front();
+  const auto range = [&](Index j) {
+    const auto column = widest.position.col(j).segment(begin, moving.size());
+    return column.maxCoeff() - column.minCoeff();
+  };
+  if (range(joint) > few_counts * resolution[joint]) {
+    return 0;
+  }
+  double frequency = 0.0;
+  for (Index j = 0; j < resolution.size(); ++j) {
+    const double travel = range(j);
+    if (travel > few_counts * resolution[j]) {
+      const double fastest = widest.velocity.col(j).segment(begin, moving.size()).cwiseAbs().maxCoeff();
+      frequency = std::max(frequency, fastest / (std::numbers::pi * travel));
+    }
+  }
+  std::size_t chosen = 0;
+  while (chosen + 1 < span.joints.size() && span.joints[chosen + 1].cutoff > 4.0 * frequency) {
+    ++chosen;
+  }
+  return chosen;
 }
 
 // The joint that moves alone through the middle of the range, or -1.
@@ -70,7 +109,7 @@ Index moving_joint(const Segmentation& segmentation, const IndexRange& range) {
 }
 
 void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-                   IndexRange moving, Index step) {
+                   IndexRange moving, Index step, const Eigen::VectorXd& resolution) {
   moving.begin = std::max(moving.begin, span.usable_begin);
   moving.end = std::min(moving.end, span.usable_end);
   const Index available = (moving.size() + step - 1) / step;
@@ -86,11 +125,15 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
         static_cast<int>(moving.begin - span.samples.begin + (last - 1) * step));
     MovingStretch stretch;
     stretch.joint = moving_joint(segmentation, moving);
-    stretch.offsets.assign(static_cast<std::size_t>(recording.joints()), -1);
-    stretch.position = span.position(index, Eigen::all);
-    stretch.velocity = span.velocity(index, Eigen::all);
-    stretch.acceleration = span.acceleration(index, Eigen::all);
-    stretch.jerk = span.jerk(index, Eigen::all);
+    stretch.position.resize(last - first, recording.joints());
+    stretch.velocity = stretch.acceleration = stretch.jerk = stretch.position;
+    for (Index joint = 0; joint < recording.joints(); ++joint) {
+      const SmoothJoints& joints = span.joints[choose_smoothing(span, moving, joint, resolution)];
+      stretch.position.col(joint) = joints.position(index, joint);
+      stretch.velocity.col(joint) = joints.velocity(index, joint);
+      stretch.acceleration.col(joint) = joints.acceleration(index, joint);
+      stretch.jerk.col(joint) = joints.jerk(index, joint);
+    }
     stretch.reading = span.reading(index, Eigen::all);
     stretch.time = recording.time(index + static_cast<int>(span.samples.begin));
     rows.stretches.push_back(std::move(stretch));
@@ -102,7 +145,6 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
   DwellRow row;
   const auto count = static_cast<double>(dwell.samples.size());
   row.position = dwell.joint_positions;
-  row.offsets.assign(static_cast<std::size_t>(recording.joints()), -1);
   // A joint that shows a single count is anywhere within it.
   row.position_variance = resolution.cwiseAbs2() / 12.0;
   const Index channels = gyroscope ? 6 : 3;
@@ -122,46 +164,42 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
 
 // Which rows share a rest: the same joint on the same count.
 void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
-  const Index joints = resolution.size();
   std::vector<double> std;
-  for (Index joint = 0; joint < joints; ++joint) {
+  for (Index joint = 0; joint < resolution.size(); ++joint) {
     const double count = resolution[joint];
     if (count <= 0.0) {
       continue;
     }
     struct Rest {
-      double position;
-      std::vector<std::size_t> dwells;
+      double position = 0.0;
+      std::vector<DwellRow*> dwells;
+      std::vector<MovingStretch*> stretches;
     };
     std::vector<Rest> rests;
-    for (std::size_t i = 0; i < rows.dwells.size(); ++i) {
-      const double position = rows.dwells[i].position[joint];
-      const auto same = std::find_if(rests.begin(), rests.end(),
-                                     [&](const Rest& rest) { return std::abs(rest.position - position) < 0.75 * count; });
-      if (same == rests.end()) {
-        rests.push_back({position, {i}});
-      } else {
-        same->dwells.push_back(i);
-      }
+    for (DwellRow& dwell : rows.dwells) {
+      const auto same = std::find_if(rests.begin(), rests.end(), [&](const Rest& rest) {
+        return std::abs(rest.position - dwell.position[joint]) < 0.75 * count;
+      });
+      Rest& rest = same == rests.end() ? rests.emplace_back(Rest{dwell.position[joint], {}, {}}) : *same;
+      rest.dwells.push_back(&dwell);
     }
-    for (const Rest& rest : rests) {
-      std::vector<MovingStretch*> stretches;
+    for (Rest& rest : rests) {
       for (MovingStretch& stretch : rows.stretches) {
         if ((stretch.position.col(joint).array() - rest.position).abs().maxCoeff() < 0.75 * count) {
-          stretches.push_back(&stretch);
+          rest.stretches.push_back(&stretch);
         }
       }
-      if (rest.dwells.size() + stretches.size() < 2) {
+      if (rest.dwells.size() + rest.stretches.size() < 2) {
         continue;
       }
-      const auto offset = static_cast<Index>(std.size());
+      const OffsetTerm term{joint, static_cast<Index>(std.size())};
       std.push_back(count / std::sqrt(12.0));
-      for (const std::size_t dwell : rest.dwells) {
-        rows.dwells[dwell].offsets[static_cast<std::size_t>(joint)] = offset;
-        rows.dwells[dwell].position_variance[joint] = 0.0;
+      for (DwellRow* dwell : rest.dwells) {
+        dwell->offsets.push_back(term);
+        dwell->position_variance[joint] = 0.0;
       }
-      for (MovingStretch* stretch : stretches) {
-        stretch->offsets[static_cast<std::size_t>(joint)] = offset;
+      for (MovingStretch* stretch : rest.stretches) {
+        stretch->offsets.push_back(term);
       }
     }
   }
@@ -171,7 +209,7 @@ void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
 }  // namespace
 
 double choose_common_cutoff(const Recording& recording, const Eigen::VectorXd& resolution) {
-  constexpr double widest = 20.0;     // Hz
+  constexpr double widest = 10.0;     // Hz, the paper's choice; arms begin to bend and ring above it
   constexpr double tolerated = 0.1;   // rad/s^2 of differentiated counts
   double cutoff = std::min(widest, 0.2 * recording.sample_rate);
   const double coarsest = resolution.size() > 0 ? resolution.maxCoeff() : 0.0;
@@ -201,16 +239,16 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
     if (span.size() < std::max<Index>(32, shortest_stretch * step)) {
       continue;
     }
-    const SmoothSpan smoothed = smooth(recording, span, cutoff, gyroscope);
+    const SmoothSpan smoothed = smooth(recording, span, cutoff, resolution.maxCoeff() > coarse_count, gyroscope);
     Index begin = span.begin;
     for (const StaticDwell& dwell : segmentation.dwells) {
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, smoothed, {begin, dwell.samples.begin}, step);
+      add_stretches(rows, recording, segmentation, smoothed, {begin, dwell.samples.begin}, step, resolution);
       begin = dwell.samples.end;
     }
-    add_stretches(rows, recording, segmentation, smoothed, {begin, span.end}, step);
+    add_stretches(rows, recording, segmentation, smoothed, {begin, span.end}, step, resolution);
   }
   share_offsets(rows, resolution);
   return rows;

@@ -10,6 +10,12 @@
 
 namespace circlepoint {
 
+// An unknown error of a resting joint's position: a shared parameter.
+struct OffsetTerm {
+  Index joint = 0;
+  Index parameter = 0;  // into ArmRows::offset_std
+};
+
 struct MovingStretch {
   Index joint = -1;        // the one joint that moves, or -1
   Index noise = 0;         // kind of motion: stretches of one kind share their noise model
@@ -19,22 +25,22 @@ struct MovingStretch {
   SamplesX acceleration;   // (M, n)
   SamplesX jerk;           // (M, n)
   SamplesX reading;        // (M, 3), or (M, 6) with angular rate
-  std::vector<Index> offsets;  // (n) the count each joint rests on meanwhile, into ArmRows::offset_std; -1: it moves
+  std::vector<OffsetTerm> offsets;  // of the joints that rest meanwhile
   [[nodiscard]] Index rows() const { return time.size(); }
 };
 
 struct DwellRow {
   Eigen::VectorXd position;                             // (n)
   Eigen::VectorXd position_variance;                    // (n), of what the encoders do not resolve, for this dwell only
-  std::vector<Index> offsets;                           // (n) the count it rests on, where other rows share it; else -1
+  std::vector<OffsetTerm> offsets;                      // that other rows share
   Eigen::VectorXd reading;                              // (3) or (6)
   Eigen::VectorXd variance;                             // (3) or (6), of the mean by its samples' scatter
   double time = 0.0;                                    // s, middle
   Index samples = 0;
 };
 
-// A joint at rest stands somewhere within its encoder's count, and stays there: whatever shares that rest shares the error.
-// Offsets of rests that several rows share are parameters (with the count as their prior); others are noise of their row.
+// A joint at rest stands somewhere within its encoder's count, and stays there: whatever shares that rest shares the error. Such
+// offsets are parameters with the count as their prior; a rest that no other row shares is noise of its row.
 struct ArmRows {
   std::vector<DwellRow> dwells;
   std::vector<MovingStretch> stretches;
