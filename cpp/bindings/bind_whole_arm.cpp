@@ -56,7 +56,9 @@ void bind_results(py::module_& m) {
       .def_readonly("residual_rms", &StretchResidual::residual_rms, "m/s^2")
       .def_readonly("normalized_rms", &StretchResidual::normalized_rms, "whitened: 1 where model and noise hold")
       .def_readonly("held_out_rms", &StretchResidual::held_out_rms, "m/s^2, by estimates that did not see the stretch")
-      .def_readonly("held_out_normalized_rms", &StretchResidual::held_out_normalized_rms);
+      .def_readonly("held_out_normalized_rms", &StretchResidual::held_out_normalized_rms)
+      .def_readonly("held_out_samples", &StretchResidual::held_out_samples)
+      .def_readonly("indispensable", &StretchResidual::indispensable, "stretches the rest cannot predict");
   py::class_<WholeArmCalibration>(m, "WholeArmCalibration", "The whole-arm estimate and what it says of itself.")
       .def_readonly("joints", &WholeArmCalibration::joints, "JointCalibration: lines, covariance, gravity, sensor, signals")
       .def_readonly("parameters", &WholeArmCalibration::parameters)

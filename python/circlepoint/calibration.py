@@ -11,6 +11,7 @@ import circlepoint
 from circlepoint.nominal import joint_types, nominal_dh_chain
 from circlepoint.result_document import result_document
 from circlepoint.sensor_presets import load_sensor
+from circlepoint.whole_arm_document import with_whole_arm
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,11 +21,15 @@ if TYPE_CHECKING:
     from circlepoint.arm import Arm
     from circlepoint.document import Document
 
-Method = Literal["joint", "position", "velocity"]
+Method = Literal["whole-arm", "joint", "position", "velocity"]
 DhConversion = circlepoint.StandardDhConversion | circlepoint.ModifiedDhConversion
 
 UNSPECIFIED_SENSOR = "generic"
 """Preset taken when nothing is said of the sensor; the dwells then set how wide its figures are."""
+
+CLOCK_OFFSET_STD = 0.05
+"""s; what the alignment of two clocks by the arm's activity may be off."""
+CLOCK_RATE_STD = 1e-3
 
 
 @dataclass(frozen=True)
@@ -99,6 +104,8 @@ class Calibration:
         The dwells, motions and tests found in it.
     joints : JointCalibration
         Every joint's axis, or the reason there is none.
+    whole_arm : WholeArmCalibration or None
+        The estimate of everything at once, where that was the method.
     chain : ScrewChain or None
         All axes, base frame = sensor frame at the reference configuration; None while a joint is missing.
     dh : StandardDhConversion, ModifiedDhConversion or None
@@ -113,6 +120,7 @@ class Calibration:
     recording: circlepoint.Recording
     segmentation: circlepoint.Segmentation
     joints: circlepoint.JointCalibration
+    whole_arm: circlepoint.WholeArmCalibration | None
     chain: circlepoint.ScrewChain | None
     dh: DhConversion | None
     fits: tuple[NamedFit, ...]
@@ -123,7 +131,7 @@ def calibrate(
     recording: circlepoint.Recording,
     arm: Arm,
     *,
-    method: Method = "joint",
+    method: Method = "whole-arm",
     sensor: circlepoint.AccelerometerSpecification | None = None,
     gravity: float = circlepoint.STANDARD_GRAVITY,
     reference_configuration: ArrayLike | None = None,
@@ -136,8 +144,9 @@ def calibrate(
         Joint positions and specific force on one clock.
     arm : Arm
         Joints, and what is known nominally.
-    method : {"joint", "position", "velocity"}
-        Regression joint by joint, or one of the two methods of Canepa, Hollerbach and Boelen (1994).
+    method : {"whole-arm", "joint", "position", "velocity"}
+        One maximum-likelihood estimate of everything from any motion, regression joint by joint, or one of the two
+        methods of Canepa, Hollerbach and Boelen (1994).
     sensor : AccelerometerSpecification, optional
         What is known of the sensor. Without it a wide range of kinds is allowed for, and the readings at rest say how
         wide.
@@ -155,22 +164,32 @@ def calibrate(
     InvalidInput
         For a recording that does not fit the arm, or options out of range.
     """
-    options = _options(arm, method, sensor, gravity, reference_configuration)
     segmentation = circlepoint.segment(recording)
-    joints = circlepoint.calibrate_joints(recording, segmentation, options)
+    whole_arm = None
+    if method == "whole-arm":
+        whole_arm = circlepoint.calibrate_whole_arm(
+            recording, segmentation, _whole_arm_options(arm, recording, sensor, gravity, reference_configuration)
+        )
+        joints = whole_arm.joints
+    else:
+        joints = circlepoint.calibrate_joints(
+            recording, segmentation, _options(arm, method, sensor, gravity, reference_configuration)
+        )
     chain = joints.chain() if joints.complete() else None
     dh = _to_dh(chain, arm)
+    document = result_document(
+        arm, method=method, gravity=gravity, segmentation=segmentation, joints=joints, chain=chain, dh=dh
+    )
     return Calibration(
         arm=arm,
         recording=recording,
         segmentation=segmentation,
         joints=joints,
+        whole_arm=whole_arm,
         chain=chain,
         dh=dh,
         fits=tuple(NamedFit(arm.joints[fit.joint].name, fit) for fit in joints.fits),
-        document=result_document(
-            arm, method=method, gravity=gravity, segmentation=segmentation, joints=joints, chain=chain, dh=dh
-        ),
+        document=document if whole_arm is None else with_whole_arm(document, arm, whole_arm),
     )
 
 
@@ -187,12 +206,39 @@ def _options(
     options.adapt_sensor_prior = sensor is None
     options.gravity = gravity
     options.joint_types = joint_types(arm)
+    _set_encoders(options, arm, reference_configuration)
+    return options
+
+
+def _whole_arm_options(
+    arm: Arm,
+    recording: circlepoint.Recording,
+    sensor: circlepoint.AccelerometerSpecification | None,
+    gravity: float,
+    reference_configuration: ArrayLike | None,
+) -> circlepoint.WholeArmOptions:
+    options = circlepoint.WholeArmOptions()
+    options.sensor = load_sensor(UNSPECIFIED_SENSOR) if sensor is None else sensor
+    options.gravity_magnitude = gravity
+    options.joint_types = joint_types(arm)
+    if recording.joint_timeline is not None:
+        # Two clocks: their alignment by the arm's activity is a start, the model of the motion finds them better.
+        options.clock_offset = circlepoint.ParameterTreatment(std=CLOCK_OFFSET_STD)
+        options.clock_rate = circlepoint.ParameterTreatment(std=CLOCK_RATE_STD)
+    _set_encoders(options, arm, reference_configuration)
+    return options
+
+
+def _set_encoders(
+    options: circlepoint.JointCalibrationOptions | circlepoint.WholeArmOptions,
+    arm: Arm,
+    reference_configuration: ArrayLike | None,
+) -> None:
     steps: Sequence[float | None] = [arm.encoder_step(joint) for joint in range(len(arm.joints))]
     if all(step is not None for step in steps):
         options.encoder_resolution = np.array(steps, dtype=float)
     if reference_configuration is not None:
         options.reference_configuration = np.asarray(reference_configuration, dtype=float)
-    return options
 
 
 def _to_dh(chain: circlepoint.ScrewChain | None, arm: Arm) -> DhConversion | None:

@@ -21,6 +21,7 @@ from circlepoint.atomic import write_atomically
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    import circlepoint
     from circlepoint.findings import Finding
     from circlepoint.recording_io import LoadedRecording
 
@@ -143,9 +144,7 @@ def with_reading(document: Mapping[str, Any], loaded: LoadedRecording) -> Docume
     recording = loaded.recording
     sensor = dict(document["sensor"])
     if len(loaded.clock_alignments) == 1:
-        clock = loaded.clock_alignments[0]
-        sensor["clock_offset"] = estimate_entry(clock.offset, clock.offset_std)
-        sensor["clock_rate"] = estimate_entry(clock.rate, clock.rate_std)
+        sensor |= _clock_entries(loaded.clock_alignments[0], document["sensor"], loaded.recording)
     return {
         **document,
         "sensor": sensor,
@@ -157,6 +156,31 @@ def with_reading(document: Mapping[str, Any], loaded: LoadedRecording) -> Docume
             "spans": len(recording.spans),
         },
         "findings": [*document["findings"], *finding_entries(loaded.findings)],
+    }
+
+
+def _clock_entries(
+    clock: circlepoint.ClockAlignment, sensor: Mapping[str, Any], recording: circlepoint.Recording
+) -> Document:
+    """Return the clocks' relation, the estimate's correction of the alignment included where there is one.
+
+    The recording's time is the joints'; a sample stamped t by it shows the joints at
+    t - offset - (rate - 1) (t - middle), with the estimate's offset and rate.
+    """
+    offset, rate = sensor["clock_offset"], sensor["clock_rate"]
+    if offset is None or rate is None:
+        return {
+            "clock_offset": estimate_entry(clock.offset, clock.offset_std),
+            "clock_rate": estimate_entry(clock.rate, clock.rate_std),
+        }
+    middle = 0.5 * float(recording.time[0] + recording.time[-1])
+    slow = rate["estimate"] - 1.0
+    at_zero = offset["estimate"] - slow * middle
+    return {
+        "clock_offset": estimate_entry(
+            clock.offset + clock.rate * at_zero, float(np.hypot(offset["std"], middle * rate["std"]))
+        ),
+        "clock_rate": estimate_entry(clock.rate * (1.0 + slow), rate["std"]),
     }
 
 

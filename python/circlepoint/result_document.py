@@ -163,7 +163,7 @@ def _sensor_entry(method: str, joints: circlepoint.JointCalibration) -> Document
     entry: Document = dict.fromkeys(
         ("bias", "scale", "misalignment", "second_order", "percussion_distance", "clock_offset", "clock_rate")
     )
-    if method == "joint":
+    if method in ("joint", "whole-arm"):
         std = np.sqrt(np.diag(joints.sensor.covariance))
         sensor = joints.sensor.sensor
         entry["bias"] = estimate_entry(sensor.bias, std[:3])

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace circlepoint {
 namespace {
@@ -96,13 +97,16 @@ NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& pa
   return marginal(alone, {renumbered});
 }
 
-// The state the estimate would have been without one part, to first order.
-ArmState without(const ArmProblem& problem, const ArmState& state, const PartEquations& part, const Eigen::MatrixXd& information) {
+// The state the estimate would have been without one part, to first order; none where the rest does not determine it.
+std::optional<ArmState> without(const ArmProblem& problem, const ArmState& state, const PartEquations& part, const Eigen::MatrixXd& information) {
   const NormalEquations mine = marginal_part(problem, part);
   const Eigen::MatrixXd rest = information - mine.information;
   const Eigen::LDLT<Eigen::MatrixXd> factor(rest);
   const Eigen::VectorXd step = factor.solve(mine.gradient);
-  return step.allFinite() ? moved(state, problem.layout, step) : state;
+  // Data that nothing else replaces cannot be predicted: the step would leave the linearisation.
+  const double reach = step.dot(information * step);
+  return step.allFinite() && reach < 25.0 * static_cast<double>(step.size()) ? std::optional(moved(state, problem.layout, step))
+                                                                          : std::nullopt;
 }
 
 }  // namespace
@@ -229,12 +233,18 @@ std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState&
     StretchResidual& entry = entries[static_cast<std::size_t>(entry_of[slot])];
     ArmProblem alone = without_rows(problem);
     alone.rows.stretches = {stretch};
-    const ArmResiduals held = residuals(alone, without(problem, state, parts[i], information));
+    const std::optional<ArmState> rest = without(problem, state, parts[i], information);
     entry.begin = std::min(entry.begin, stretch.time[0]);
     entry.end = std::max(entry.end, stretch.time[stretch.rows() - 1]);
     entry.samples += stretch.rows();
     entry.residual_rms += residuals_in.moving[i].leftCols<3>().squaredNorm();
     entry.normalized_rms += residuals_in.whitened[i].leftCols<3>().squaredNorm();
+    if (!rest) {
+      ++entry.indispensable;
+      continue;
+    }
+    const ArmResiduals held = residuals(alone, *rest);
+    entry.held_out_samples += stretch.rows();
     entry.held_out_rms += held.moving[0].leftCols<3>().squaredNorm();
     entry.held_out_normalized_rms += held.whitened[0].leftCols<3>().squaredNorm();
   }
@@ -243,13 +253,19 @@ std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState&
     for (std::size_t i = 0; i < problem.rows.dwells.size(); ++i) {
       ArmProblem alone = without_rows(problem);
       alone.rows.dwells = {problem.rows.dwells[i]};
-      const ArmResiduals held = residuals(alone, without(problem, state, parts[stretches + i], information));
+      const std::optional<ArmState> rest = without(problem, state, parts[stretches + i], information);
       const auto row = static_cast<Index>(i);
       entry.begin = std::min(entry.begin, problem.rows.dwells[i].time);
       entry.end = std::max(entry.end, problem.rows.dwells[i].time);
       ++entry.samples;
       entry.residual_rms += residuals_in.dwells.row(row).head<3>().squaredNorm();
       entry.normalized_rms += residuals_in.dwells_normalized.row(row).head<3>().squaredNorm();
+      if (!rest) {
+        ++entry.indispensable;
+        continue;
+      }
+      const ArmResiduals held = residuals(alone, *rest);
+      ++entry.held_out_samples;
       entry.held_out_rms += held.dwells.leftCols<3>().squaredNorm();
       entry.held_out_normalized_rms += held.dwells_normalized.leftCols<3>().squaredNorm();
     }
@@ -259,8 +275,9 @@ std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState&
     const double count = 3.0 * static_cast<double>(entry.samples);
     entry.residual_rms = std::sqrt(entry.residual_rms / count);
     entry.normalized_rms = std::sqrt(entry.normalized_rms / count);
-    entry.held_out_rms = std::sqrt(entry.held_out_rms / count);
-    entry.held_out_normalized_rms = std::sqrt(entry.held_out_normalized_rms / count);
+    const double held_out = 3.0 * static_cast<double>(entry.held_out_samples);
+    entry.held_out_rms = std::sqrt(entry.held_out_rms / held_out);
+    entry.held_out_normalized_rms = std::sqrt(entry.held_out_normalized_rms / held_out);
   }
   return entries;
 }

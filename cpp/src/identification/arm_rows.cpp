@@ -16,6 +16,7 @@ constexpr double coarse_count = 1e-4;    // rad: finer encoders see what their j
 constexpr double few_counts = 50.0;
 constexpr Index shortest_stretch = 12;  // rows
 constexpr Index longest_stretch = 500;
+constexpr Index fewest_stretches = 8;    // where there is enough: each is once held out
 
 struct SmoothJoints {
   double cutoff = 0.0;  // Hz
@@ -109,14 +110,14 @@ Index moving_joint(const Segmentation& segmentation, const IndexRange& range) {
 }
 
 void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-                   IndexRange moving, Index step, const Eigen::VectorXd& resolution) {
+                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
   moving.begin = std::max(moving.begin, span.usable_begin);
   moving.end = std::min(moving.end, span.usable_end);
   const Index available = (moving.size() + step - 1) / step;
   if (moving.size() <= 0 || available < shortest_stretch) {
     return;
   }
-  const Index pieces = (available + longest_stretch - 1) / longest_stretch;
+  const Index pieces = (available + longest - 1) / longest;
   for (Index piece = 0; piece < pieces; ++piece) {
     const Index first = available * piece / pieces;
     const Index last = available * (piece + 1) / pieces;
@@ -231,6 +232,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
   rows.middle = 0.5 * (recording.time[0] + recording.time[recording.samples() - 1]);
   const auto step = std::max<Index>(1, static_cast<Index>(std::floor(recording.sample_rate / (3.0 * cutoff))));
   rows.rate = recording.sample_rate / static_cast<double>(step);
+  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 4 * shortest_stretch, longest_stretch);
   for (const StaticDwell& dwell : segmentation.dwells) {
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
@@ -245,10 +247,10 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, smoothed, {begin, dwell.samples.begin}, step, resolution);
+      add_stretches(rows, recording, segmentation, smoothed, {begin, dwell.samples.begin}, step, longest, resolution);
       begin = dwell.samples.end;
     }
-    add_stretches(rows, recording, segmentation, smoothed, {begin, span.end}, step, resolution);
+    add_stretches(rows, recording, segmentation, smoothed, {begin, span.end}, step, longest, resolution);
   }
   share_offsets(rows, resolution);
   return rows;

@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <thread>
 
 #include "arm_problem.hpp"
@@ -16,6 +18,11 @@ namespace {
 
 constexpr double knock = 6.0;             // standard deviations
 constexpr double model_failure = 0.2;     // share of rows beyond which knocks are none
+constexpr double known_gravity_std = 2e-5;  // m/s^2: a known magnitude, without making the equations stiff
+constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
+constexpr double vague_gravity = 0.005;   // rad its direction may stay open by the data alone
+constexpr double vague_direction = 0.02;  // rad, and
+constexpr double vague_point = 0.02;      // m: a line less certain than this is not given
 
 void validate(const Recording& recording, const WholeArmOptions& options) {
   const Index joints = recording.joints();
@@ -78,7 +85,7 @@ void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>
   layout.up_gravity = claim(3);
   problem.prior.gravity = options.gravity_magnitude;
   problem.prior.gravity_known = !options.gravity.estimated;
-  problem.prior.gravity_std = options.gravity.estimated ? options.gravity.std : 1e-7 * options.gravity_magnitude;
+  problem.prior.gravity_std = options.gravity.estimated ? options.gravity.std : known_gravity_std;
   const auto group = [&](Index& column, const ParameterTreatment& treatment, double specified, const Eigen::VectorXd& mean) {
     const ParameterTreatment settled = settle(treatment, specified);
     if (settled.estimated) {
@@ -261,6 +268,22 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) {
   return root.cwiseInverse().asDiagonal() * inverted * root.cwiseInverse().asDiagonal();
 }
 
+// Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
+// rests on the prior alone, or where it spans more than the linearisation.
+std::string why_vague(const JointAxis& axis, bool gravity_seen) {
+  if (!gravity_seen) {
+    return "gravity hardly turns in the sensor's frame in this recording, so neither its direction nor the sensor's bias can be told "
+           "from the motion; hold still at six or more orientations of the sensor well apart, 1 s each";
+  }
+  std::array<char, 160> text{};
+  if (axis.direction_std() > vague_direction || axis.point_std() > vague_point) {
+    std::snprintf(text.data(), text.size(), "its line is known to +- %.1f mrad and +- %.1f mm only", 1e3 * axis.direction_std(),
+                  1e3 * axis.point_std());
+    return std::string(text.data()) + "; move it alone, farther and faster, such as 0.5 Hz over 150 degrees for 6 s";
+  }
+  return {};
+}
+
 // What a joint's motions alone and its dwells looked like, for the page.
 void record_signals(JointCalibration& joints, const Segmentation& segmentation, const ArmProblem& problem,
                     const ArmResiduals& residuals) {
@@ -370,9 +393,12 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const ArmStart start = find_start(problem, state, known, moves, options.random_starts, options.seed);
   result.starts_tried = start.tried;
   if (!start.found) {
-    throw NotIdentifiable("no start of " + std::to_string(start.tried) +
-                          " leads to a model of the motion twice; record each joint moving alone, still poses and a motion such as "
-                          "0.5 Hz over 150 degrees for 6 s");
+    for (JointEstimate& estimate : result.joints.joints) {
+      if (!estimate.axis) {
+        estimate.reason += "; nor does any of " + std::to_string(start.tried) + " starts explain the motions of several joints twice";
+      }
+    }
+    return result;
   }
   state = start.state;
   lay_out(problem, state, moves, options);
@@ -393,7 +419,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     problem.offsets = best_offsets(problem, parts);
     const NormalEquations prior = linearise_prior(problem, state);
     covariance = inverse(all.information + prior.information);
-    result.converged = pass > 2 && solution.converged && largest_step(before, state, problem.layout, covariance) < 0.02;
+    result.converged = pass > 2 && solution.converged && largest_step(before, state, problem.layout, covariance) < still;
     ArmResiduals now = residuals(problem, state);
     if (pass > 0 && pass < 4) {
       const Index cut = cut_knocks(problem.rows, now);
@@ -437,6 +463,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.gyroscope_bias = state.gyroscope_bias;
   result.gyroscope_matrix = state.gyroscope_matrix;
 
+  const bool gravity_seen = seen.data_std.segment<3>(problem.layout.up_gravity).maxCoeff() < vague_gravity * options.gravity_magnitude;
   JointCalibration& estimate = result.joints;
   estimate.covariance = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
   for (Index i = 0; i < joints; ++i) {
@@ -457,7 +484,10 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       }
     }
     mine.axis = JointAxis{state.axes[at], estimate.covariance.block<4, 4>(4 * i, 4 * i)};
-    mine.reason.clear();
+    mine.reason = why_vague(*mine.axis, gravity_seen);
+    if (!mine.reason.empty()) {
+      mine.axis.reset();
+    }
   }
   estimate.up_gravity_sensor = state.up_gravity;
   estimate.sensor.sensor = state.sensor;

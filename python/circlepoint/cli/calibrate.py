@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     import circlepoint
 
-METHODS = ("joint", "position", "velocity")
+METHODS = ("whole-arm", "joint", "position", "velocity")
 
 _TEXT = """\
 Estimate the axis of every joint as a line in the sensor's frame, the Denavit-Hartenberg parameters that follow from
@@ -57,8 +57,9 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--method",
         choices=METHODS,
-        default="joint",
-        help="joint: regression, joint by joint (default); position, velocity: the two methods of Canepa et al. 1994",
+        default="whole-arm",
+        help="whole-arm: everything at once, from any motion (default); joint: regression, joint by joint; position, "
+        "velocity: the two methods of Canepa et al. 1994",
     )
     parser.add_argument(
         "--sensor", metavar="PRESET|FILE", help="what is known of the sensor: a preset's name or a data sheet file"

@@ -15,7 +15,8 @@
 // not determine is named: joints that hardly move, and the combinations of parameters along the information matrix's
 // weakest directions. For every stretch the residual is also given by an estimate that did not see it (hold-out).
 //
-// Fails (NotIdentifiable) where nothing moves. A joint that never moves is a result without a line.
+// Fails (NotIdentifiable) where nothing moves. A joint that never moves is a result without a line, and so is one whose line stays
+// vaguer than 20 mrad or 20 mm; where no start leads to a fit, the single-joint results stand alone.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -51,7 +52,7 @@ struct WholeArmOptions {
   bool use_gyroscope = true;            ///< where there is one
   double gravity_magnitude = standard_gravity;  ///< m/s^2
   double cutoff = 0.0;                  ///< Hz, of the common low-pass; 0: chosen from rate, motion and encoders
-  int max_passes = 8;                   ///< of estimating parameters and noise in turn
+  int max_passes = 12;                  ///< of estimating parameters and noise in turn
   int random_starts = 200;              ///< where tests do not give start values
   std::uint64_t seed = 0;               ///< of the random starts
   unsigned threads = 0;                 ///< 0: as many as the machine has
@@ -80,11 +81,13 @@ struct StretchResidual {
   std::string name;            ///< "joint 3", "several joints", "dwells"
   double begin = 0.0;          ///< s
   double end = 0.0;            ///< s
-  Index samples = 0;
+  Index samples = 0;           ///< rows
   double residual_rms = 0.0;   ///< m/s^2, low-passed
   double normalized_rms = 0.0; ///< whitened: 1 if model and noise hold
-  double held_out_rms = 0.0;   ///< m/s^2, by the estimate without this stretch
+  Index held_out_samples = 0;  ///< rows that were left out once
+  double held_out_rms = 0.0;   ///< m/s^2, by estimates that did not see the stretch; NaN without any
   double held_out_normalized_rms = 0.0;
+  Index indispensable = 0;     ///< stretches without which the rest determines too little to predict them
 };
 
 struct WholeArmCalibration {

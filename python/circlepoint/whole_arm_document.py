@@ -1,0 +1,147 @@
+"""What the whole-arm estimate adds to a calibration's document: all parameters, what is weak, residuals held out."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from circlepoint.document import Document, estimate_entry, plain
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from typing import Any
+
+    import circlepoint
+    from circlepoint.arm import Arm
+
+_TRIPLES = {
+    "bias": ("bias_x", "bias_y", "bias_z"),
+    "scale": ("scale_x", "scale_y", "scale_z"),
+    "misalignment": ("misalignment_yx", "misalignment_zx", "misalignment_zy"),
+    "second_order": ("second_order_x", "second_order_y", "second_order_z"),
+}
+_PERCUSSION = ("percussion_distance_x", "percussion_distance_y", "percussion_distance_z")
+
+
+def with_whole_arm(document: Mapping[str, Any], arm: Arm, estimate: circlepoint.WholeArmCalibration) -> Document:
+    """Return the document of the lines with the fields only the whole-arm estimate knows.
+
+    Parameters
+    ----------
+    document : mapping
+        From `result_document`, of ``estimate.joints``.
+    arm : Arm
+    estimate : WholeArmCalibration
+        One without parameters (no start was found) leaves the document as it is.
+    """
+    if not estimate.parameters:
+        return dict(document)
+    return {
+        **document,
+        "sensor": {**document["sensor"], **_sensor_entry(estimate)},
+        "covariance": _covariance_entry(arm, estimate),
+        "identifiability": _identifiability_entry(document, estimate),
+        "fit": _fit_entry(estimate),
+        "hold_out": [_hold_out_entry(arm, stretch) for stretch in estimate.stretches],
+    }
+
+
+def _named(estimate: circlepoint.WholeArmCalibration) -> dict[str, int]:
+    return {parameter.name: index for index, parameter in enumerate(estimate.parameters)}
+
+
+def _sensor_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
+    index = _named(estimate)
+    value = np.array([parameter.value for parameter in estimate.parameters])
+    std = np.array([parameter.std for parameter in estimate.parameters])
+
+    def triple(names: Sequence[str]) -> Document | None:
+        if names[0] not in index:
+            return None
+        at = [index[name] for name in names]
+        return estimate_entry(value[at], std[at])
+
+    entry: Document = {name: triple(names) for name, names in _TRIPLES.items()}
+    entry["percussion_distance"] = None
+    channels = triple(_PERCUSSION)
+    if channels is not None:
+        at = [index[name] for name in _PERCUSSION]
+        weight = np.linalg.solve(estimate.covariance[np.ix_(at, at)], np.ones(3))
+        entry["percussion_distance"] = {
+            "estimate": float(weight @ value[at] / weight.sum()),
+            "std": float(weight.sum() ** -0.5),
+            "channels": channels,
+        }
+    for name in ("clock_offset", "clock_rate"):
+        at_name = index.get(name)
+        entry[name] = None if at_name is None else estimate_entry(float(value[at_name]), float(std[at_name]))
+    if estimate.gyroscope_used:
+        bias = triple(("gyroscope_bias_x", "gyroscope_bias_y", "gyroscope_bias_z"))
+        entry["gyroscope"] = {"bias": bias, "matrix": plain(estimate.gyroscope_matrix)}
+    return entry
+
+
+def _covariance_entry(arm: Arm, estimate: circlepoint.WholeArmCalibration) -> Document:
+    return {
+        "parameters": [arm_name(arm, parameter.name) for parameter in estimate.parameters],
+        "matrix": plain(estimate.covariance),
+    }
+
+
+def arm_name(arm: Arm, text: str) -> str:
+    """Return a parameter's name with the joint under the arm's own name for it (joint1.d1 -> shoulder.d1)."""
+    head, dot, tail = text.partition(".")
+    if not dot or not head.startswith("joint"):
+        return text
+    return f"{arm.joints[int(head.removeprefix('joint')) - 1].name}.{tail}"
+
+
+def _identifiability_entry(document: Mapping[str, Any], estimate: circlepoint.WholeArmCalibration) -> Document:
+    condition = estimate.condition_number
+    return {
+        "rank": estimate.rank,
+        "parameters": len(estimate.parameters),
+        "condition_number": condition if math.isfinite(condition) and condition < 1e15 else None,  # noqa: PLR2004
+        "unseen": document["identifiability"]["unseen"],
+    }
+
+
+def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
+    moving = [stretch for stretch in estimate.stretches if stretch.name != "dwells"]
+    samples = sum(stretch.samples for stretch in moving)
+    rms = math.sqrt(sum(stretch.samples * stretch.residual_rms**2 for stretch in moving) / samples)
+    return {
+        "samples": estimate.samples,
+        "rows": estimate.rows,
+        "outliers": estimate.outliers,
+        "cutoff": estimate.cutoff,
+        "noise_std": rms,
+        "static_noise_std": next((s.residual_rms for s in estimate.stretches if s.name == "dwells"), None),
+        "residual_rms": rms,
+        "normalised_residual_rms": estimate.normalized_rms,
+        "iterations": estimate.iterations,
+        "converged": estimate.converged,
+    }
+
+
+def _hold_out_entry(arm: Arm, stretch: circlepoint.StretchResidual) -> Document:
+    head, _, number = stretch.name.partition(" ")
+    alone = head == "joint" and number.isdigit()
+    return {
+        "name": arm.joints[int(number) - 1].name if alone else stretch.name,
+        "begin": stretch.begin,
+        "end": stretch.end,
+        "samples": stretch.samples,
+        "residual_rms": stretch.residual_rms,
+        "normalised_rms": stretch.normalized_rms,
+        "held_out_samples": stretch.held_out_samples,
+        "held_out_rms": _finite(stretch.held_out_rms),
+        "held_out_normalised_rms": _finite(stretch.held_out_normalized_rms),
+        "indispensable": stretch.indispensable,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
