@@ -26,6 +26,7 @@ _EXAMPLES = """\
   circlepoint check log.csv --arm arm.yaml
   circlepoint check joints.csv sensor.csv --arm arm.yaml          two files, two clocks
   circlepoint check rtde.csv --arm arm.yaml --columns map.yaml    other names and units
+  circlepoint check log.mcap --arm arm.urdf --tip tool0           a ROS 2 bag, the arm from its URDF
   circlepoint check log.csv --arm arm.yaml --json
 """
 
@@ -44,8 +45,15 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    arm = load_arm(options.arm)
-    loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
+    arm = load_arm(options.arm, base=options.base, tip=options.tip)
+    loaded = read_recording(
+        options.logs,
+        arm,
+        options.columns,
+        gravity=options.gravity,
+        joint_topic=options.joint_topic,
+        imu_topic=options.imu_topic,
+    )
     result = check_recording(loaded, arm, gravity=options.gravity)
     print(json.dumps(check_document(result), indent=1, allow_nan=False) if options.json else format_check(result))
     return 0 if result.ready else 1
