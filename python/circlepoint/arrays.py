@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from circlepoint.arm import Arm
 
-_NANOSECONDS = 1e-9
+_SECOND = 1e9  # ns
 
 
 def recording_from_arrays(
@@ -109,7 +109,7 @@ def _numbers(label: str, name: str, column: Any) -> FloatArray | None:
     array = np.asarray(column)
     if array.dtype.kind == "M":
         stamps = array.astype("datetime64[ns]")
-        return (stamps - stamps[0]).astype(np.int64) * _NANOSECONDS if stamps.size else np.empty(0)
+        return (stamps - stamps[0]).astype(np.int64) / _SECOND if stamps.size else np.empty(0)
     if array.dtype.kind == "O":
         try:
             array = array.astype(np.float64)

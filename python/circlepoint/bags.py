@@ -240,7 +240,7 @@ def _table(path: Path, topic: str, stream: _Stream, origin: int, hint: str, *, s
         )
     stamps = np.array(stream.stamps, dtype=np.int64)
     values = np.array(stream.values).reshape(-1, len(stream.columns))
-    columns: dict[str, FloatArray] = {"t": (stamps - origin) * 1e-9}
+    columns: dict[str, FloatArray] = {"t": (stamps - origin) / 1e9}
     for index, name in enumerate(stream.columns):
         column = np.ascontiguousarray(values[:, index])
         if not (name.startswith("angular_velocity") and np.isnan(column).all()):

@@ -160,7 +160,7 @@ class ColumnNames:
                 if not name.endswith(ending) or not prefix or prefix in found or _COMMANDED.search(prefix):
                     continue
                 match = self.family([f"{prefix}_{member}" for member in family], quantity)
-                if match.found == len(family):
+                if match.found == len(family) and match not in found.values():
                     found[prefix] = match
         return found
 

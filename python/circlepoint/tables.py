@@ -256,7 +256,7 @@ def _as_float(column: pa.ChunkedArray | pa.Array) -> NDArray[np.float64]:
     if pa.types.is_timestamp(column.type):  # seconds, whatever the file's unit
         column = column.cast(pa.timestamp("ns", column.type.tz), safe=False).cast(pa.int64())
         nanoseconds: NDArray[np.int64] = column.to_numpy(**_COPY if isinstance(column, pa.Array) else {})
-        return nanoseconds * 1e-9
+        return nanoseconds / 1e9
     column = column.cast(pa.float64(), safe=False)
     values: NDArray[np.float64] = column.to_numpy(**_COPY if isinstance(column, pa.Array) else {})
     return values

@@ -46,7 +46,7 @@ def _message(store, msgtype, first, second, stamp, *, ros1):
     header = types["std_msgs/msg/Header"](**({"seq": 0} if ros1 else {}), stamp=time, frame_id="flange")
     empty = np.empty(0)
     if msgtype == "sensor_msgs/msg/JointState":
-        return types[msgtype](header, list(first), np.asarray(second, dtype=float), empty, empty)
+        return types[msgtype](header, list(first), np.ascontiguousarray(second, dtype=float), empty, empty)
     vector = types["geometry_msgs/msg/Vector3"]
     unknown = np.full(9, -1.0)
     turning = unknown if second is None else np.zeros(9)

@@ -25,7 +25,7 @@ dh:
     - {a: 0.1, alpha: 0.4, d: 0.2, theta: -0.3}
 """
 PLAN = """\
-sample_rate: 250
+rate_hz: 250
 rest_deg: [10, 40, 30]
 tests:
   - joint: all
@@ -52,11 +52,13 @@ def physical(arm, tmp_path_factory):
     up = np.array([3.0, 4.0, 8.5])
     options = circlepoint.SimulationOptions(noise_std=0.003, seed=5)
     sensor = circlepoint.draw_accelerometer(circlepoint.AccelerometerSpecification(bias_std=0.01, scale_std=1e-3), 7)
-    return circlepoint.simulate(chain, up, sensor, plan.trajectory(), options)
+    recording = circlepoint.simulate(chain, up, sensor, plan.trajectory(), options)
+    whole_nanoseconds = np.round(recording.time, 9)
+    return circlepoint.make_recording(whole_nanoseconds, recording.joint_positions, recording.specific_force)
 
 
 def columns_of(recording, time, joints, force):
-    named = {time: recording.time}
+    named = {time: np.round(recording.time, 9)}
     named |= {name: recording.joint_positions[:, index] for index, name in enumerate(joints)}
     return named | {name: recording.specific_force[:, index] for index, name in enumerate(force)}
 
