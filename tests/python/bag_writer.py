@@ -11,8 +11,11 @@ EPOCH = 1_700_000_000_123_456_789  # ns
 LATE = 1_500_000  # ns, between a header's stamp and its logging
 
 
-def write_bag(path, kind, topics):
-    """Write a bag: `topics` are (topic, messages) with messages of (t, names, positions) or (t, force, turning)."""
+def write_bag(path, kind, topics, *, stamped=True):
+    """Write a bag: `topics` are (topic, messages) with messages of (t, names, positions) or (t, force, turning).
+
+    Unless `stamped`, the messages' headers carry no time.
+    """
     ros1 = kind == "ROS 1"
     store = get_typestore(Stores.ROS1_NOETIC if ros1 else Stores.ROS2_HUMBLE)
     if ros1:
@@ -30,11 +33,12 @@ def write_bag(path, kind, topics):
             if messages and isinstance(messages[0][1], str):
                 msgtype = "std_msgs/msg/String"
             connection = writer.add_connection(topic, msgtype, typestore=store)
-            entries += [(time, connection, msgtype, first, second) for time, first, second in messages]
-        for time, connection, msgtype, first, second in sorted(entries, key=lambda entry: abs(entry[0] or 0)):
-            stamp = 0 if time is None else EPOCH + round(time * 1e9)
-            message = _message(store, msgtype, first, second, stamp, ros1=ros1)
-            writer.write(connection, max(stamp, EPOCH) + LATE, serialize(message, msgtype))
+            logged = np.maximum.accumulate([message[0] for message in messages])  # the order they came in
+            entries += [(at, connection, msgtype, *message) for at, message in zip(logged, messages, strict=True)]
+        for logged, connection, msgtype, time, first, second in sorted(entries, key=lambda entry: entry[0]):
+            stamp = EPOCH + round(time * 1e9)
+            message = _message(store, msgtype, first, second, stamp if stamped else 0, ros1=ros1)
+            writer.write(connection, EPOCH + round(logged * 1e9) + LATE, serialize(message, msgtype))
     return path
 
 
