@@ -95,11 +95,11 @@ def _columns(label: str, table: Any) -> Iterator[tuple[str, Any]]:
     names = getattr(table, "column_names", None) or getattr(table, "columns", None)
     if names is None:
         raise InvalidInput(
-            f"{label}: is a {type(table).__name__}; give columns by name: a mapping such as {{'t': t, 'q': q, 'a': a}}, "
-            f"a DataFrame or a structured array"
+            f"{label}: is a {type(table).__name__}; give columns by name: a mapping such as {{'t': t, 'q': q, 'a': a}},"
+            f" a DataFrame or a structured array"
         )
     index = getattr(table, "index", None)
-    if getattr(index, "name", None):
+    if index is not None and getattr(index, "name", None):
         yield str(index.name), index
     yield from ((str(name), table[name]) for name in names)
 

@@ -131,7 +131,9 @@ def _claimed_clock(assembly: Assembly, joints: Log, sensor: Log) -> circlepoint.
     try:
         alignment = _align(joints, sensor)
     except circlepoint.Error:
-        message = f"{source}: joints and sensor are stamped by one clock, as far as the stamps say; the motions do not tell"
+        message = (
+            f"{source}: joints and sensor are stamped by one clock, as far as the stamps say; the motions do not tell"
+        )
         assembly.findings.append(Finding("clock", message))
         return None
     at = alignment.reference_time

@@ -197,7 +197,7 @@ def _require_si_position(low: float, high: float, arm: Arm, index: int, source: 
             span = highest - lowest
             outside = low < lowest - 0.25 * span or high > highest + 0.25 * span
             as_degrees = lowest <= math.radians(low) + _LIMIT_MARGIN and math.radians(high) <= highest + _LIMIT_MARGIN
-            implausible = outside and as_degrees
+            implausible = outside and as_degrees and not _whole_turns_away(low, high, lowest, highest)
         else:
             implausible = largest > _LARGEST_TURN or high - low > _LARGEST_TRAVEL
         if implausible:
@@ -209,6 +209,18 @@ def _require_si_position(low: float, high: float, arm: Arm, index: int, source: 
     elif largest > _LARGEST_REACH:
         likely = "mm" if largest < _LARGEST_REACH / LENGTH_UNITS["mm"] else "um"
         raise InvalidInput(f"{name}: too far for metres, it looks like {likely}; {state % f'q{index + 1}: {likely}'}")
+
+
+def _whole_turns_away(low: float, high: float, lowest: float, highest: float) -> bool:
+    """Whether a joint that can make a whole turn, as wrists do, may have made several."""
+    turn = 2 * math.pi
+    turns = round(((low + high) - (lowest + highest)) / (2 * turn)) * turn
+    return (
+        highest - lowest >= turn
+        and max(abs(low), abs(high)) < _LARGEST_TURN
+        and lowest <= low - turns
+        and high - turns <= highest
+    )
 
 
 def _require_si_force(magnitude: float, source: str, column_map: ColumnMap, gravity: float) -> None:

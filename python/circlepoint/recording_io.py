@@ -2,8 +2,8 @@
 
 A file with joint positions and specific force is a recording. Files with only the one and only the other come from two
 machines with two clocks: offset and rate between them are estimated, and the two become one recording. One file may
-hold two rates: the topics of a bag, a sensor with its own time column, rows of joints between rows of the sensor. Several
-recordings become one, in the order given.
+hold two rates: the topics of a bag, a sensor with its own time column, rows of joints between rows of the sensor.
+Several recordings become one, in the order given.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ from circlepoint.column_map import (
     missing_specific_force,
 )
 from circlepoint.findings import Finding
+from circlepoint.log_table import LogTable, SelectedRows, require_finite
 from circlepoint.plausibility import (
     encoder_findings,
     encoder_step,
@@ -40,7 +41,6 @@ from circlepoint.plausibility import (
     time_findings,
     unwrap_joints,
 )
-from circlepoint.log_table import LogTable, SelectedRows, require_finite
 from circlepoint.quantities import Quantity, quantities
 from circlepoint.tables import open_table
 
@@ -216,9 +216,7 @@ def _paths(tables: Iterable[LogTable]) -> str:
     return ", ".join(table.label for table in tables)
 
 
-def _read_logs(
-    table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float
-) -> Iterator[Log]:
+def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Iterator[Log]:
     """Yield the log in a table, or the two of different rates or clocks."""
     data = table.read(names.used)
     halves: list[tuple[LogTable, FileColumns]] = [(table, names)]
@@ -285,9 +283,7 @@ def _read_log(
         )
     gyroscope, temperature, more = _optional_columns(table, names, data, time, column_map)
     findings += more
-    return Log(
-        table, names, time, positions, force, gyroscope, temperature, timeline, findings, dict(column_map.units)
-    )
+    return Log(table, names, time, positions, force, gyroscope, temperature, timeline, findings, dict(column_map.units))
 
 
 def _require_order(table: LogTable, name: str, stamps: FloatArray) -> None:

@@ -84,7 +84,9 @@ def read_urdf(path: str | Path, base: str | None = None, tip: str | None = None)
         direction = pose[:3, :3] @ _axis(path, joint)
         lines.append(NominalLine(_triple(direction), _triple(pose[:3, 3])))
     if not moving:
-        raise InvalidInput(f"{path}: no joint moves between {_ends(chain, base, tip)}; choose --base and --tip further apart")
+        raise InvalidInput(
+            f"{path}: no joint moves between {_ends(chain, base, tip)}; choose --base and --tip further apart"
+        )
     tip_pose = tuple(tuple(float(x) for x in row) for row in pose)
     return Arm(
         name=robot.get("name") or path.stem,
@@ -237,7 +239,7 @@ def _moving_joint(path: Path, joint: _UrdfJoint) -> Joint:
         name=joint.name,
         type=kind,
         limits=None if limit is None or joint.type == "continuous" else _limits(path, joint, limit),
-        velocity=velocity if velocity else None,
+        velocity=velocity or None,
     )
 
 
@@ -252,7 +254,7 @@ def _limits(path: Path, joint: _UrdfJoint, limit: Any) -> tuple[float, float] | 
             path,
             limit,
             f"limits {low:g} to {high:g} look like degrees; a URDF has radians ({math.radians(low):.6f} to "
-            f"{math.radians(high):.6f}); for a joint without end, type=\"continuous\"",
+            f'{math.radians(high):.6f}); for a joint without end, type="continuous"',
             joint.element,
         )
     return low, high
@@ -262,11 +264,12 @@ def _number(path: Path, joint: _UrdfJoint, element: Any, attribute: str, default
     text = element.get(attribute)
     if text is None:
         return default
-    (value,) = _numbers(path, joint, element, attribute, text, 1)
+    (value,) = _numbers(path, joint, element, attribute, "0")
     return value
 
 
-def _numbers(path: Path, joint: _UrdfJoint, element: Any, attribute: str, text: str, count: int) -> list[float]:
+def _numbers(path: Path, joint: _UrdfJoint, element: Any, attribute: str, default: str) -> list[float]:
+    text, count = element.get(attribute, default), len(default.split())
     try:
         values = [float(part) for part in text.split()]
     except ValueError:
@@ -282,12 +285,12 @@ def _origin(path: Path, joint: _UrdfJoint) -> FloatArray:
     origin = joint.element.find("origin")
     if origin is None:
         return pose
-    xyz = _numbers(path, joint, origin, "xyz", origin.get("xyz", "0 0 0"), 3)
-    rpy = _numbers(path, joint, origin, "rpy", origin.get("rpy", "0 0 0"), 3)
+    xyz = _numbers(path, joint, origin, "xyz", "0 0 0")
+    rpy = _numbers(path, joint, origin, "rpy", "0 0 0")
     if max(map(abs, xyz)) > LONGEST_LINK:
-        raise _error(path, origin, f"xyz=\"{origin.get('xyz')}\" looks like millimetres; write metres", joint.element)
+        raise _error(path, origin, f'xyz="{origin.get("xyz")}" looks like millimetres; write metres', joint.element)
     if max(map(abs, rpy)) > LARGEST_LIMIT:
-        raise _error(path, origin, f"rpy=\"{origin.get('rpy')}\" looks like degrees; write radians", joint.element)
+        raise _error(path, origin, f'rpy="{origin.get("rpy")}" looks like degrees; write radians', joint.element)
     roll, pitch, yaw = (rotation_exp(angle * unit) for angle, unit in zip(rpy, np.eye(3), strict=True))
     pose[:3, :3] = yaw @ pitch @ roll
     pose[:3, 3] = xyz
@@ -298,10 +301,10 @@ def _axis(path: Path, joint: _UrdfJoint) -> FloatArray:
     axis = joint.element.find("axis")
     if axis is None:
         return np.array([1.0, 0.0, 0.0])  # the format's default
-    values = np.array(_numbers(path, joint, axis, "xyz", axis.get("xyz", "1 0 0"), 3))
+    values = np.array(_numbers(path, joint, axis, "xyz", "1 0 0"))
     length = float(np.linalg.norm(values))
     if length < 1e-9:
-        raise _error(path, axis, f"xyz=\"{axis.get('xyz')}\" has no direction; give the axis", joint.element)
+        raise _error(path, axis, f'xyz="{axis.get("xyz")}" has no direction; give the axis', joint.element)
     return np.asarray(values / length)
 
 

@@ -65,7 +65,7 @@ def _message(store, msgtype, first, second, stamp, *, ros1):
     )
 
 
-def write_recording_bag(path, kind, names, time, positions, force):
+def write_recording_bag(path, kind, names, *, time, positions, force):
     """Write one physical recording: joint states under these names, and an IMU without gyroscope."""
     joints = ((t, names, q) for t, q in zip(time, positions, strict=True))
     sensor = ((t, f, None) for t, f in zip(time, force, strict=True))

@@ -168,7 +168,9 @@ def two_of_each(path, names=(("shoulder", "elbow2"), ("finger",))):
 
 def test_several_imus_are_listed_until_one_is_chosen(tmp_path, arm_file):
     path, arm = two_of_each(tmp_path / "log.bag"), load_arm(arm_file)
-    with pytest.raises(circlepoint.InvalidInput, match=r"2 topics of type sensor_msgs/Imu: /base/imu, /imu;.*imu_topic"):
+    with pytest.raises(
+        circlepoint.InvalidInput, match=r"2 topics of type sensor_msgs/Imu: /base/imu, /imu;.*imu_topic"
+    ):
         read_recording(path, arm)
     chosen = read_recording(path, arm, imu_topic="/imu").recording.specific_force
     np.testing.assert_allclose(chosen, samples()["a"], atol=1e-9)
@@ -188,7 +190,9 @@ def test_of_several_joint_states_the_one_with_the_arms_joints_is_taken(tmp_path,
     chosen = read_recording(same, load_arm(arm_file), imu_topic="/imu", joint_topic="/robot1/joint_states").recording
     np.testing.assert_allclose(chosen.joint_positions, samples()["q"][:, ::-1], atol=1e-9)
     other = two_of_each(tmp_path / "other.bag", (("a", "b"), ("c",)))
-    with pytest.raises(circlepoint.InvalidInput, match=r"no joint state holds.*shoulder, elbow2.*a, b.*q: \[") as caught:
+    with pytest.raises(
+        circlepoint.InvalidInput, match=r"no joint state holds.*shoulder, elbow2.*a, b.*q: \["
+    ) as caught:
         read_recording(other, load_arm(arm_file), imu_topic="/imu")
     assert "c" in str(caught.value)
     columns = tmp_path / "map.yaml"

@@ -5,12 +5,11 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 import pytest
-from bag_writer import KINDS, write_recording_bag
+from bag_writer import KINDS, write_bag, write_recording_bag
 
 import circlepoint
 from circlepoint.arm import load_arm
 from circlepoint.demo import built_arm
-from circlepoint.nominal import nominal_chain
 from circlepoint.protocol import load_plan
 from circlepoint.recording_io import read_recording
 
@@ -85,9 +84,13 @@ def write(form, folder, recording):
         (folder / "rtde.csv").write_text("\n".join(lines) + "\n")
         return folder / "rtde.csv"
     order = [("pan", "lift", "roll")[index] for index in MIXED]
-    positions = recording.joint_positions[:, MIXED]
     return write_recording_bag(
-        folder / KINDS[form], form, order, recording.time, positions, recording.specific_force
+        folder / KINDS[form],
+        form,
+        order,
+        time=recording.time,
+        positions=recording.joint_positions[:, MIXED],
+        force=recording.specific_force,
     )
 
 
@@ -201,8 +204,6 @@ def two_rates(physical):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_two_rates_in_one_bag_are_one_recording(kind, arm, physical, tmp_path):
-    from bag_writer import write_bag
-
     joints, sensor = two_rates(physical)
     path = tmp_path / KINDS[kind]
     topics = [
@@ -249,10 +250,11 @@ def test_a_sensors_own_time_column_is_a_second_clock(arm, physical, tmp_path):
 
 
 def test_stamps_of_one_bag_that_the_motions_contradict_become_two_clocks(arm, physical, tmp_path):
-    from bag_writer import write_bag
-
     topics = [
-        ("/joint_states", zip(physical.time, [arm.joint_names] * physical.samples, physical.joint_positions)),
+        (
+            "/joint_states",
+            [(t, arm.joint_names, q) for t, q in zip(physical.time, physical.joint_positions, strict=True)],
+        ),
         ("/imu/data", [(t + 0.08, f, None) for t, f in zip(physical.time, physical.specific_force, strict=True)]),
     ]
     loaded = read_recording(write_bag(tmp_path / "log.bag", "ROS 1", topics), arm)
