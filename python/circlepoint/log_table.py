@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
+MANY_ROWS = 1_500_000
+"""Rows above which a log is thinned out while it is read (`circlepoint.long_logs`)."""
+
 
 class LogTable(Protocol):
     """Named columns of numbers, one row a sample."""
@@ -48,6 +51,10 @@ class LogTable(Protocol):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What opening it has shown."""
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory."""
 
     def error(self, message: str, row: int | None = None) -> InvalidInput:
         """Return an InvalidInput about the table, or about one of its rows (0-based)."""
@@ -85,6 +92,11 @@ class MemoryTable:
     part: str = ""
     hint: str = ""
     findings: tuple[Finding, ...] = ()
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory."""
+        return next((values.size for values in self.values.values()), 0) > MANY_ROWS
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -141,6 +153,11 @@ class SelectedRows:
     def hint(self) -> str:
         """What else is there."""
         return self.table.hint
+
+    @property
+    def long(self) -> bool:
+        """Whether the table may be too long for memory: its rows have been read."""
+        return False
 
     @property
     def findings(self) -> tuple[Finding, ...]:

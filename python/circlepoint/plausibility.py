@@ -145,19 +145,20 @@ def specific_force_findings(
             )
             continue
         for extreme in (float(values.max()), float(values.min())):
-            clipped = _clipped(force, channel, extreme)
+            clipped = find_clipped(force, channel, extreme)
             if clipped.any():
-                share = float(clipped.mean())
-                findings.append(
-                    Finding(
-                        "clipping",
-                        f"{source}: column `{name}` is stuck at {extreme:.6g} m/s^2 in {int(clipped.sum())} samples "
-                        f"({100 * share:.2g} %, first "
-                        f"at {time[int(np.argmax(clipped))]:.6g} s): the sensor's range ends there; move slower or "
-                        f"choose a wider range",
-                    )
-                )
+                first, count = float(time[int(np.argmax(clipped))]), int(clipped.sum())
+                findings.append(clipping_finding(source, name, extreme, count=count, rows=time.size, first=first))
     return findings
+
+
+def clipping_finding(source: str, column: str, extreme: float, *, count: int, rows: int, first: float) -> Finding:
+    """Return what to say of a channel that was at the end of its range: `count` of `rows` samples, the first at s."""
+    return Finding(
+        "clipping",
+        f"{source}: column `{column}` is stuck at {extreme:.6g} m/s^2 in {count} samples ({100 * count / rows:.2g} %, "
+        f"first at {first:.6g} s): the sensor's range ends there; move slower or choose a wider range",
+    )
 
 
 def encoder_step(values: FloatArray) -> float | None:
@@ -247,7 +248,7 @@ def _require_si_force(magnitude: float, source: str, column_map: ColumnMap, grav
         )
 
 
-def _clipped(force: FloatArray, channel: int, extreme: float) -> NDArray[np.bool_]:
+def find_clipped(force: FloatArray, channel: int, extreme: float) -> NDArray[np.bool_]:
     """Find samples of one channel in long runs at its extreme while another channel moves."""
     at = np.asarray(force[:, channel] == extreme, dtype=np.bool_)
     clipped: NDArray[np.bool_] = np.zeros(at.shape, dtype=np.bool_)

@@ -33,6 +33,7 @@ from circlepoint.column_map import (
 )
 from circlepoint.findings import Finding
 from circlepoint.log_table import LogTable, SelectedRows, require_finite
+from circlepoint.long_logs import gap_options, read_column, thin, thinning_factor
 from circlepoint.plausibility import (
     encoder_findings,
     encoder_step,
@@ -42,6 +43,7 @@ from circlepoint.plausibility import (
     unwrap_joints,
 )
 from circlepoint.quantities import Quantity, quantities
+from circlepoint.stamps import require_order, table_timeline
 from circlepoint.tables import open_table
 
 if TYPE_CHECKING:
@@ -218,6 +220,9 @@ def _paths(tables: Iterable[LogTable]) -> str:
 
 def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Iterator[Log]:
     """Yield the log in a table, or the two of different rates or clocks."""
+    if table.long and not (names.joints and names.specific_force and names.sensor_time):
+        yield _read_long_log(table, names, arm, column_map, gravity)
+        return
     data = table.read(names.used)
     halves: list[tuple[LogTable, FileColumns]] = [(table, names)]
     if names.joints and names.specific_force:
@@ -228,6 +233,35 @@ def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: Column
     for half, columns in halves:
         values = half.read(columns.used) if half is not table else data
         yield replace(_read_log(half, columns, values, arm, column_map, gravity=gravity), one_clock=claimed)
+
+
+def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Log:
+    """Read a log that may be too long for memory: its time first, which says how much of it to keep."""
+    units = {**names.units, **column_map.units}
+    second = TIME_UNITS[units.get("t", "s")]
+    stamps = read_column(table, names.time)
+    rate = (stamps.size - 1) / max(float(stamps[-1] - stamps[0]) * second, 1e-9) if stamps.size > 1 else 0.0
+    factor = thinning_factor(stamps.size, rate) if np.isfinite(rate) else 1
+    if factor == 1:
+        del stamps
+        return _read_log(table, names, table.read(names.used), arm, column_map, gravity=gravity)
+    require_finite(table, names.time, stamps)
+    require_order(table, names.time, stamps)
+    stamps *= second
+    timeline = table_timeline(table, stamps, gap_options(factor))
+    thinned = thin(
+        table,
+        names,
+        stamps,
+        timeline,
+        factor=factor,
+        units=(second, ACCELERATION_UNITS[units.get("a", "m/s^2")]),
+    )
+    del stamps
+    log = _read_log(table, names, thinned.data, arm, column_map, gravity=gravity)
+    notes = [Finding("timeline", f"{table.label}: {note}") for note in timeline.notes]
+    kept = [finding for finding in log.findings if finding.code not in {"timeline", "clipping"}]
+    return replace(log, timeline=timeline, findings=[*notes, *thinned.findings, *kept])
 
 
 def _two_rates(
@@ -263,8 +297,8 @@ def _read_log(
         require_finite(table, name, data[name])
     source = table.label
     time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
-    _require_order(table, names.time, data[names.time])
-    timeline = _timeline(table, time)
+    require_order(table, names.time, data[names.time])
+    timeline = table_timeline(table, time)
     findings = list(table.findings)
     findings += [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
     findings += time_findings(time, timeline.sample_rate, source, column_map)
@@ -284,34 +318,6 @@ def _read_log(
     gyroscope, temperature, more = _optional_columns(table, names, data, time, column_map)
     findings += more
     return Log(table, names, time, positions, force, gyroscope, temperature, timeline, findings, dict(column_map.units))
-
-
-def _require_order(table: LogTable, name: str, stamps: FloatArray) -> None:
-    backwards = np.flatnonzero(np.diff(stamps) < 0)
-    if backwards.size:
-        row = int(backwards[0]) + 1
-        raise table.error(
-            f"time runs backwards: column `{name}` is {stamps[row]:.12g} after {stamps[row - 1]:.12g} "
-            f"({backwards.size} such rows); sort "
-            "the rows, or split the log there into two files",
-            row,
-        )
-
-
-def _timeline(table: LogTable, time: FloatArray) -> circlepoint.TimelineReport:
-    if time[0] == time[-1]:
-        raise table.error(f"time stands still: every stamp is {time[0]:.12g} s; log the time each sample was taken")
-    timeline = circlepoint.analyse_timeline(time)
-    if timeline.surplus:
-        first = timeline.surplus[0]
-        raise table.error(
-            f"the time stamp {first.value:.12g} s comes again, and the rows around it are more than the "
-            f"{timeline.sample_rate:.6g} Hz clock can "
-            f"have made ({len(timeline.surplus)} such rows): rows written twice, or stamps that are too coarse; "
-            f"remove the repeated rows",
-            int(first.index),
-        )
-    return timeline
 
 
 def _optional_columns(

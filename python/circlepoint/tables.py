@@ -24,9 +24,11 @@ from numpy.typing import NDArray
 
 from circlepoint._core import InvalidInput
 from circlepoint.findings import Finding
+from circlepoint.log_table import MANY_ROWS
 
 _DELIMITERS = (",", ";", "\t")
 _BLOCK_ROWS = 1 << 17  # rows of a piece of a Parquet file
+_COMPRESSION = 10  # of a CSV file, at most
 _BLOCK_BYTES = 1 << 24  # bytes of a piece of a CSV file
 
 
@@ -60,6 +62,15 @@ class TableFile:
     def findings(self) -> tuple[Finding, ...]:
         """What opening it has shown: nothing."""
         return ()
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory, by its size; CSV says its number of rows only when read."""
+        if self.kind == "parquet":
+            with _parquet_blame(self):
+                return int(pyarrow.parquet.read_metadata(self.path).num_rows) > MANY_ROWS
+        size = self.path.stat().st_size * (_COMPRESSION if self.path.suffix.lower() == ".gz" else 1)
+        return size > 2 * MANY_ROWS * len(self.columns)  # a cell has two characters at least
 
     def read(self, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
         """Read columns as numbers (see `read_numbers`)."""
