@@ -33,9 +33,9 @@ KEPT = 1_250_000
 SLOWEST = 50.0
 """Hz: no rate is reduced below this."""
 
-_HALF = 8  # kept samples on each side that a mean extends over
+_HALF = 16  # kept samples on each side that a mean extends over
 _CUTOFF = 0.4  # of the kept rate
-_WINDOW = 6.0  # Kaiser's beta: 60 dB
+_WINDOW = 9.0  # Kaiser's beta: 90 dB
 _OFF_GRID = 1e-6  # ticks
 
 
@@ -114,7 +114,7 @@ def thin(
     smooth = [*(names.specific_force or ()), *(names.angular_velocity or ())]
     picked = [*(names.joints or ()), *([names.temperature] if names.temperature else [])]
     required = [*(names.joints or ()), *(names.specific_force or ())]
-    clipping = _Clipping(names.specific_force or ())
+    clipping = _Clipping(names.specific_force or (), units[1])
     sieve = _Sieve(factor, len(smooth), len(picked))
     runs = _runs(time, timeline)
     rows = 0
@@ -136,7 +136,7 @@ def thin(
         f"{table.label}: {time.size} rows at {timeline.sample_rate:.6g} Hz were thinned out to {kept.size} at "
         f"{timeline.sample_rate / factor:.6g} Hz (low pass at {_CUTOFF * timeline.sample_rate / factor:.3g} Hz)"
     )
-    findings = [Finding("thinned", note), *clipping.findings(table.label, time, units[1])]
+    findings = [Finding("thinned", note), *clipping.findings(table.label, time)]
     return Thinned(data, timeline, findings)
 
 
@@ -198,7 +198,7 @@ class _Sieve:
         distance = np.arange(-reach, reach + 1) / self.factor
         weights = np.sinc(2 * _CUTOFF * distance) * np.kaiser(2 * reach + 1, _WINDOW)
         self._reach = reach
-        self._weights: FloatArray = weights / weights.sum()
+        self._weights: FloatArray = weights / weights.sum()  # what is constant stays what it is
 
     def take(self, run: _Run, ticks: FloatArray, values: FloatArray) -> None:
         """Add rows (K, channels) of a run at their ticks (K,)."""
@@ -251,14 +251,17 @@ class _Sieve:
 class _Clipping:
     """The extremes of each channel of a log that goes by in pieces, and the samples stuck there."""
 
-    def __init__(self, names: Sequence[str]) -> None:
+    def __init__(self, names: Sequence[str], unit: float) -> None:
         self._names = names
+        self._unit = unit  # m/s^2
         self._seen: dict[tuple[str, int], tuple[float, int, int]] = {}  # extreme, samples stuck, first row
         self._rows = 0
 
     def look(self, piece: dict[str, FloatArray], time: FloatArray) -> None:
         """Look at the next piece."""
-        force = np.column_stack([piece[name] for name in self._names]) if self._names else np.empty((time.size, 0))
+        if not self._names:
+            return
+        force = self._unit * np.column_stack([piece[name] for name in self._names])
         for channel, name in enumerate(self._names):
             for sign in (1, -1):
                 extreme = float((sign * force[:, channel]).max())
@@ -274,10 +277,10 @@ class _Clipping:
                 self._seen[name, sign] = (extreme, count + found, first)
         self._rows += time.size
 
-    def findings(self, source: str, time: FloatArray, factor: float) -> Iterator[Finding]:
-        """Yield what was clipped; `factor` is m/s^2 in the file's unit."""
+    def findings(self, source: str, time: FloatArray) -> Iterator[Finding]:
+        """Yield what was clipped."""
         for (name, sign), (extreme, count, first) in self._seen.items():
             if count:
                 yield clipping_finding(
-                    source, name, sign * extreme * factor, count=count, rows=self._rows, first=float(time[first])
+                    source, name, sign * extreme, count=count, rows=self._rows, first=float(time[first])
                 )
