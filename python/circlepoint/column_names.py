@@ -17,7 +17,7 @@ AXES = ("x", "y", "z")
 
 TIME_NAMES = (
     *("t", "time", "timestamp", "field_header_stamp", "header_stamp", "stamp", "time_stamp", "elapsed", "elapsed_time"),
-    *("t_joint", "joint_time", "log_time", "rosbagtimestamp"),
+    *("t_joint", "joint_time", "log_time", "t_pc", "pc_time", "t_host", "host_time", "rosbagtimestamp"),
 )
 SENSOR_TIME_NAMES = ("t_sensor", "sensor_t", "sensor_time", "t_imu", "imu_t", "imu_time", "hwt")
 TEMPERATURE_NAMES = ("temp", "temperature", "sensor_temperature", "imu_temperature")

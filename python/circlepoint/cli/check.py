@@ -31,6 +31,7 @@ _EXAMPLES = """\
 """
 
 _WIDTH = 118
+_GAPS_SHOWN = 3
 
 
 def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
@@ -99,7 +100,7 @@ def format_check(result: LogCheck) -> str:
     lines += [_rest_line(result), _range_line(result)]
     lines += ["", *_joint_table(result.joints), ""]
     lines += _wrapped(_advice(result.joints), "to record")
-    lines += _wrapped([_short(finding.message, result) for finding in result.findings], "findings")
+    lines += _wrapped(_few_gaps([_short(finding.message, result) for finding in result.findings]), "findings")
     missing = [joint.joint.name for joint in result.joints if joint.status == "missing"]
     lines.append(
         f"{len(missing)} of {len(result.joints)} joints cannot be calibrated from this log: {', '.join(missing)}"
@@ -138,6 +139,16 @@ def _short(message: str, result: LogCheck) -> str:
     for file in result.loaded.files:
         message = message.replace(str(file.path), file.path.name)
     return message
+
+
+def _few_gaps(messages: list[str]) -> list[str]:
+    """Return the messages with the first gaps only."""
+    gaps = [message for message in messages if ": a gap of " in message]
+    if len(gaps) <= _GAPS_SHOWN:
+        return messages
+    left_out = set(gaps[_GAPS_SHOWN:])
+    more = f"{len(gaps) - _GAPS_SHOWN} more gaps (--json lists all)"
+    return [*(message for message in messages if message not in left_out), more]
 
 
 def _range_line(result: LogCheck) -> str:
