@@ -29,7 +29,7 @@ from circlepoint.log_table import MANY_ROWS
 _DELIMITERS = (",", ";", "\t")
 _BLOCK_ROWS = 1 << 17  # rows of a piece of a Parquet file
 _COMPRESSION = 10  # of a CSV file, at most
-_BLOCK_BYTES = 1 << 24  # bytes of a piece of a CSV file
+_BLOCK_BYTES = 1 << 22  # bytes of a piece of a CSV file
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,8 @@ class TableFile:
         """Read columns as numbers, piece by piece (see `read_numbers`)."""
         columns = list(dict.fromkeys(names))
         for content in _stream_parquet(self, columns) if self.kind == "parquet" else _stream_csv(self, columns):
-            yield {name: np.ascontiguousarray(_as_float(content.column(name))) for name in columns}
+            yield {name: np.array(_as_float(content.column(name))) for name in columns}
+        pa.default_memory_pool().release_unused()  # what reading needed is needed for other things now
 
     def place(self, row: int) -> str:
         """Where a data row (0-based) is in the file: ``"line 12"``, ``"row 11"`` for Parquet."""
@@ -208,7 +209,10 @@ def _stream_csv(table: TableFile, names: list[str]) -> Iterator[pa.RecordBatch]:
 def _csv_options(table: TableFile, names: list[str], block_size: int | None = None) -> dict[str, Any]:
     return {
         "read_options": pyarrow.csv.ReadOptions(
-            column_names=_unique(table.columns, names), skip_rows=table.header_line, block_size=block_size
+            column_names=_unique(table.columns, names),
+            skip_rows=table.header_line,
+            block_size=block_size,
+            use_threads=block_size is None,
         ),
         "parse_options": pyarrow.csv.ParseOptions(delimiter=table.delimiter),
         "convert_options": pyarrow.csv.ConvertOptions(
