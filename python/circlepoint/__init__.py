@@ -1,7 +1,7 @@
 """Kinematic calibration of robot arms by a triaxial accelerometer on the end-point.
 
 The names of the C++ core (filters, integrators, chains, estimators, the simulator) are here, beside those of the main
-job: `load_arm`, `read_recording`, `check_recording`, `load_sensor` and `calibrate`.
+job: `load_arm`, `read_recording`, `recording_from_arrays`, `check_recording`, `load_sensor` and `calibrate`.
 """
 
 try:
@@ -19,6 +19,7 @@ except ModuleNotFoundError as error:
 from circlepoint import _core
 from circlepoint._core import __version__
 from circlepoint.arm import Arm, load_arm
+from circlepoint.arrays import recording_from_arrays
 from circlepoint.calibration import Calibration, calibrate
 from circlepoint.check import check_recording
 from circlepoint.recording_io import read_recording
@@ -33,5 +34,6 @@ __all__ = [
     "load_arm",
     "load_sensor",
     "read_recording",
+    "recording_from_arrays",
 ]
 __all__ += _core.__all__

@@ -1,4 +1,4 @@
-"""The arm as its owner describes it: joints from base to tip, nominal Denavit-Hartenberg rows, encoders.
+"""The arm as its owner describes it: joints from base to tip, nominal Denavit-Hartenberg rows or lines, encoders.
 
 ``arm.yaml``::
 
@@ -8,7 +8,12 @@
     dh:                                      # nominal, optional: lines need no nominal
       convention: standard                   # or modified (Craig)
       rows: [{a: 0.0, alpha: 1.5708, d: 0.0, theta: 0.0}]
+    lines:                                   # nominal, instead of dh: each axis in the base frame, m
+      reference_configuration: [0.0]         # optional: where the joints stand then; zeros
+      rows: [{direction: [0, 0, 1], point: [0, 0, 0.3]}]
     encoder: {counts_per_revolution: 400000} # optional; one value or a list (null: unknown)
+
+A URDF is read instead where one is given (`circlepoint.urdf`).
 
 Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration are in m, its encoder counts per metre.
 """
@@ -29,9 +34,12 @@ _JOINT_TYPES: dict[str, JointType] = {"revolute": "revolute", "prismatic": "pris
 _CONVENTIONS: dict[str, DhConvention] = {"standard": "standard", "modified": "modified"}
 _DH_PARAMETERS = ("a", "alpha", "d", "theta")
 _COUNTS = "counts_per_revolution"
+_LINE_FIELDS = ("reference_configuration", "rows")
 _DH_NUMBER = "a finite number (0.0 where it is zero)"
-_LARGEST_LIMIT = 8 * math.pi  # rad: four turns either way; beyond that a limit was written in degrees
-_LONGEST_LINK = 20.0  # m: beyond that a length was written in millimetres
+LARGEST_LIMIT = 8 * math.pi
+"""rad: four turns either way; beyond that a limit was written in degrees."""
+LONGEST_LINK = 20.0
+"""m: beyond that a length was written in millimetres."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +82,26 @@ class NominalDh:
 
 
 @dataclass(frozen=True)
+class NominalLine:
+    """A joint's axis in the base frame: unit direction, and a point on it, m."""
+
+    direction: tuple[float, float, float]
+    point: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class NominalLines:
+    """Nominal axes in the base frame where the joints stand at a reference configuration.
+
+    `tip` is the pose of the tip link there, (4, 4), where it is known.
+    """
+
+    reference_configuration: tuple[float, ...]
+    rows: tuple[NominalLine, ...]
+    tip: tuple[tuple[float, ...], ...] | None = None
+
+
+@dataclass(frozen=True)
 class Arm:
     """A serial arm.
 
@@ -87,12 +115,20 @@ class Arm:
         Nominal parameters, where known.
     encoder_counts : tuple of (float or None), or None
         Counts per revolution (per metre when prismatic), one a joint, where known.
+    lines : NominalLines or None
+        Nominal axes, where these are known instead of parameters.
     """
 
     name: str
     joints: tuple[Joint, ...]
     dh: NominalDh | None = None
     encoder_counts: tuple[float | None, ...] | None = None
+    lines: NominalLines | None = None
+
+    @property
+    def has_nominal(self) -> bool:
+        """Whether its axes are known nominally."""
+        return self.dh is not None or self.lines is not None
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -107,13 +143,15 @@ class Arm:
         return (2 * math.pi if self.joints[joint].revolute else 1.0) / counts
 
 
-def load_arm(path: str | Path) -> Arm:
-    """Read an arm description (``arm.yaml``).
+def load_arm(path: str | Path, *, base: str | None = None, tip: str | None = None) -> Arm:
+    """Read an arm description (``arm.yaml`` or a URDF).
 
     Parameters
     ----------
     path : str or Path
-        The file; its format is described at the top of this module.
+        The file; the format of ``arm.yaml`` is described at the top of this module.
+    base, tip : str, optional
+        Links of a URDF between which the arm lies (see `circlepoint.urdf.read_urdf`).
 
     Returns
     -------
@@ -128,13 +166,16 @@ def load_arm(path: str | Path) -> Arm:
     """
     path = Path(path)
     if _is_urdf(path):
-        raise InvalidInput(
-            f"{path}: is a URDF, which is not read yet; describe the arm in an arm.yaml instead: its joints from base "
-            "to tip as `joints: [{name: ..., type: revolute}, ...]`"
-        )
-    fields = load_fields(path, ("name", "joints", "dh", "encoder"))
+        from circlepoint.urdf import read_urdf  # noqa: PLC0415  (an arm.yaml needs no XML)
+
+        return read_urdf(path, base, tip)
+    if base is not None or tip is not None:
+        raise InvalidInput(f"{path}: is not a URDF; base and tip are links of a URDF, leave them out")
+    fields = load_fields(path, ("name", "joints", "dh", "lines", "encoder"))
     name = fields.text("name", "the arm's name")
     joints = _joints(fields)
+    if fields.given("dh") and fields.given("lines"):
+        fields.fail("lines", "is given beside dh; keep one of the two")
     return Arm(
         name=name,
         joints=joints,
@@ -142,6 +183,7 @@ def load_arm(path: str | Path) -> Arm:
         encoder_counts=_encoder_counts(fields.fields("encoder", (_COUNTS,)), len(joints))
         if fields.given("encoder")
         else None,
+        lines=_nominal_lines(fields.fields("lines", _LINE_FIELDS), len(joints)) if fields.given("lines") else None,
     )
 
 
@@ -184,13 +226,13 @@ def _limits(fields: Fields) -> tuple[float, float]:
     if low >= high:
         fields.fail("limits", f"the lowest, {low:g}, is not below the highest, {high:g}")
     revolute = fields.values["type"] == "revolute"
-    if revolute and max(abs(low), abs(high)) > _LARGEST_LIMIT:
+    if revolute and max(abs(low), abs(high)) > LARGEST_LIMIT:
         fields.fail(
             "limits",
             f"[{low:g}, {high:g}] looks like degrees; write radians: [{math.radians(low):.6f}, "
             f"{math.radians(high):.6f}] (leave limits out for a joint that turns without end)",
         )
-    if not revolute and max(abs(low), abs(high)) > _LONGEST_LINK:
+    if not revolute and max(abs(low), abs(high)) > LONGEST_LINK:
         fields.fail("limits", f"[{low:g}, {high:g}] looks like millimetres; write metres")
     return low, high
 
@@ -221,9 +263,34 @@ def _angle(fields: Fields, key: str) -> float:
 
 def _length(fields: Fields, key: str) -> float:
     length = fields.number(key, need=_DH_NUMBER)
-    if abs(length) > _LONGEST_LINK:
+    if abs(length) > LONGEST_LINK:
         fields.fail(key, f"{length:g} looks like millimetres; write metres: {length / 1000:g}")
     return length
+
+
+def _nominal_lines(fields: Fields, joints: int) -> NominalLines:
+    rows = []
+    for row in fields.each("rows", "a list with one row a joint", ("direction", "point")):
+        direction, point = _vector(row, "direction", 3), _vector(row, "point", 3)
+        length = math.hypot(*direction)
+        if length < 1e-9:
+            row.fail("direction", "has no length; give the axis' direction")
+        if math.hypot(*point) > LONGEST_LINK:
+            row.fail("point", f"{list(point)} looks like millimetres; write metres")
+        x, y, z = (component / length for component in direction)
+        rows.append(NominalLine((x, y, z), (point[0], point[1], point[2])))
+    if len(rows) != joints:
+        fields.fail("rows", f"has {len(rows)} rows for {joints} joints; one row a joint is needed")
+    given = fields.given("reference_configuration")
+    reference = _vector(fields, "reference_configuration", joints) if given else (0.0,) * joints
+    return NominalLines(reference, tuple(rows))
+
+
+def _vector(fields: Fields, key: str, count: int) -> tuple[float, ...]:
+    value = fields.value(key, f"a list of {count} numbers")
+    if not isinstance(value, list) or len(value) != count:
+        fields.fail(key, f"is {describe(value)}, must be a list of {count} numbers")
+    return tuple(fields.checked((key, index), entry) for index, entry in enumerate(value))
 
 
 def _encoder_counts(fields: Fields, joints: int) -> tuple[float | None, ...]:

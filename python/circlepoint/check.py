@@ -18,6 +18,8 @@ from circlepoint.findings import Finding
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from circlepoint.arm import Arm, Joint
     from circlepoint.recording_io import LoadedRecording
 
@@ -51,6 +53,8 @@ class JointCheck:
         Range of its rests in one test, largest travel of a motion.
     motion_time : float
         s, of all motions.
+    strokes : int
+        Passages from end to end, of all motions: how often each was repeated.
     frequency : float or None
         Hz of the longest motion; None for a single stroke.
     encoder_step : float or None
@@ -70,6 +74,7 @@ class JointCheck:
     motions: int
     motion_span: float
     motion_time: float
+    strokes: int
     frequency: float | None
     encoder_step: float | None
     gravity_share: float | None
@@ -93,6 +98,8 @@ class LogCheck:
         m/s^2; magnitude of the specific force over the rests: mean and standard deviation.
     rest_noise : float or None
         m/s^2; standard deviation of samples within a rest, the median over rests and channels.
+    largest_force : float
+        m/s^2; largest absolute reading of a channel.
     gravity : float
         m/s^2; what the magnitude should be.
     findings : tuple of Finding
@@ -105,6 +112,7 @@ class LogCheck:
     rest_magnitude: float | None
     rest_magnitude_std: float | None
     rest_noise: float | None
+    largest_force: float
     gravity: float
     findings: tuple[Finding, ...]
 
@@ -145,6 +153,7 @@ def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STAND
         rest_magnitude=magnitude,
         rest_magnitude_std=float(magnitudes.std()) if magnitudes.size else None,
         rest_noise=float(np.median(noise)) if noise.size else None,
+        largest_force=float(np.abs(loaded.recording.specific_force).max()),
         gravity=gravity,
         findings=(*loaded.findings, *_gravity_findings(magnitude, gravity)),
     )
@@ -182,6 +191,7 @@ def _check_joint(
         motions=len(motions),
         motion_span=motion_span,
         motion_time=sum(motion.samples.size for motion in motions) / loaded.recording.sample_rate,
+        strokes=sum(_crossings(loaded.recording, motion).size for motion in motions),
         frequency=_frequency(loaded.recording, motions),
         encoder_step=loaded.encoder_steps[index],
         gravity_share=share,
@@ -235,18 +245,23 @@ def _frequency(recording: circlepoint.Recording, motions: Sequence[circlepoint.S
     """Frequency of the longest motion by its turning points; None for a single stroke."""
     if not motions:
         return None
-    motion = max(motions, key=lambda candidate: candidate.samples.size)
+    crossings = _crossings(recording, max(motions, key=lambda candidate: candidate.samples.size))
+    if crossings.size < 2:
+        return None
+    elapsed = recording.time[crossings[-1]] - recording.time[crossings[0]]
+    return float((crossings.size - 1) / (2 * elapsed))
+
+
+def _crossings(recording: circlepoint.Recording, motion: circlepoint.SingleJointMotion) -> NDArray[np.intp]:
+    """Return the samples where a motion has passed its middle: one a stroke."""
     begin, end = motion.samples.begin, motion.samples.end
     position = recording.joint_positions[begin:end, motion.joint]
     middle = (position.max() + position.min()) / 2
     band = 0.1 * (position.max() - position.min())
     side = np.where(position > middle + band, 1, np.where(position < middle - band, -1, 0))
     known = np.flatnonzero(side)
-    crossings = known[1:][np.diff(side[known]) != 0]
-    if crossings.size < 2:
-        return None
-    elapsed = recording.time[begin + crossings[-1]] - recording.time[begin + crossings[0]]
-    return float((crossings.size - 1) / (2 * elapsed))
+    crossings: NDArray[np.intp] = begin + known[1:][np.diff(side[known]) != 0]
+    return crossings
 
 
 def _travel(joint: Joint, value: float) -> str:

@@ -1,14 +1,15 @@
 """Which column of a log is what, in which unit.
 
-Names recognised without being told (the first complete family found is taken, letters in any case):
+Names recognised without being told (the most complete family found is taken; see `circlepoint.column_names`):
 
 ========================  =======================================================================================
-time                      ``t``, ``time``, ``timestamp``, ``time_s``, ``t_s``
-joint positions           ``q1..qn``, ``q_1..q_n``, ``actual_q_0..``, ``q0..``, ``q_0..``, the arm's joint names
-specific force            ``ax, ay, az``; ``accel_x..``; ``acc_x..``; ``actual_tool_accelerometer_0..2``;
-                          ``linear_acceleration_x..`` (also with a dot)
+time                      ``t``, ``time``, ``timestamp``, ``header.stamp`` ...
+joint positions           ``q1..qn``, ``actual_q_0..``, ``joint_1..``, ``position_0..``, the arm's joint names, also
+                          as ``position.NAME`` or ``NAME/position``
+specific force            ``ax, ay, az``; ``accel_x..``; ``linear_acceleration.x..``; ``actual_tool_accelerometer_0..``
 angular velocity          ``gx, gy, gz``; ``wx..``; ``gyro_x..``; ``angular_velocity_x..`` (optional)
 temperature               ``temp``, ``temperature`` (optional)
+the sensor's own time     ``t_sensor``, ``imu_time``, ``hwt`` (optional: joints and sensor then have two clocks)
 ========================  =======================================================================================
 
 Other names and units are given by a column map (``--columns map.yaml``)::
@@ -18,23 +19,44 @@ Other names and units are given by a column map (``--columns map.yaml``)::
     a: [imu_0, imu_1, imu_2]                   # the same as ax, ay, az
     g: [rate_0, rate_1, rate_2]                # gyroscope: the same as gx, gy, gz
     temp: board_temperature
+    t_sensor: imu_stamp                        # the sensor's own clock, where it has one
+    joint_topic: /joint_states                 # of a bag with several
+    imu_topic: /imu/data
     units: {t: ms, q: deg, q3: mm, a: g, g: deg/s, temp: C}
 
 What the map does not name is still recognised. A unit given for `q` holds for the revolute joints when it is an angle
 and for the prismatic ones when it is a length; `q3` holds for joint 3 alone. Stating a unit that is the default
-(``q: rad``) also says that the values are meant, however large they look.
+(``q: rad``) also says that the values are meant, however large they look. A unit in a column's name (``ax [g]``,
+``q1_deg``) counts as stated.
 """
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
+from __future__ import annotations
 
-from circlepoint._core import STANDARD_GRAVITY
-from circlepoint.arm import Arm
-from circlepoint.tables import TableFile
+import math
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from circlepoint._core import STANDARD_GRAVITY, InvalidInput
+from circlepoint.column_names import (
+    ACCELERATION_FAMILIES,
+    AXES,
+    GYROSCOPE_FAMILIES,
+    SENSOR_TIME_NAMES,
+    TEMPERATURE_NAMES,
+    TIME_NAMES,
+    ColumnNames,
+    Match,
+    joint_families,
+    joints_behind_prefix,
+)
 from circlepoint.yaml_io import YamlFile, describe, load_yaml
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from circlepoint.arm import Arm
+    from circlepoint.log_table import LogTable
 
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 ANGLE_UNITS = {"rad": 1.0, "deg": math.pi / 180, "mrad": 1e-3, "rev": 2 * math.pi}
@@ -50,21 +72,7 @@ ACCELERATION_UNITS = {
 RATE_UNITS = {"rad/s": 1.0, "deg/s": math.pi / 180, "mrad/s": 1e-3, "rpm": 2 * math.pi / 60}
 TEMPERATURE_UNITS = {"C": (1.0, 0.0), "K": (1.0, -273.15), "F": (5 / 9, -160 / 9)}
 
-_AXES = ("x", "y", "z")
-_TIME_NAMES = ("t", "time", "timestamp", "time_s", "t_s")
-_TEMPERATURE_NAMES = ("temp", "temperature")
-_JOINT_STEMS = (("q", 1), ("q_", 1), ("actual_q_", 0), ("q", 0), ("q_", 0))
-_ACCELERATION_FAMILIES = (
-    ("ax", "ay", "az"),
-    *(tuple(f"{stem}{axis}" for axis in _AXES) for stem in ("accel_", "acc_", "acceleration_")),
-    tuple(f"actual_tool_accelerometer_{index}" for index in range(3)),
-    *(tuple(f"linear_acceleration{mark}{axis}" for axis in _AXES) for mark in "_."),
-)
-_GYROSCOPE_FAMILIES = (
-    ("gx", "gy", "gz"),
-    ("wx", "wy", "wz"),
-    *(tuple(f"{stem}{axis}" for axis in _AXES) for stem in ("gyro_", "angular_velocity_", "angular_velocity.")),
-)
+_TOPICS = ("joint_topic", "imu_topic")
 
 
 @dataclass(frozen=True)
@@ -79,11 +87,15 @@ class ColumnMap:
         Unit by quantity, as stated: ``t``, ``q``, ``q3``, ``a``, ``g``, ``temp``.
     source : YamlFile or None
         Where it came from, for messages.
+    joint_topic, imu_topic : str or None
+        Topics of a bag.
     """
 
     names: dict[str, str] = field(default_factory=dict)
     units: dict[str, str] = field(default_factory=dict)
     source: YamlFile | None = None
+    joint_topic: str | None = None
+    imu_topic: str | None = None
 
     def joint_factor(self, arm: Arm, joint: int) -> float:
         """Return what a value of this joint's column is multiplied by to give rad or m."""
@@ -93,11 +105,12 @@ class ColumnMap:
         unit = self.units.get(name, self.units.get("q"))
         if unit is None or (unit in other and name not in self.units):
             return 1.0
-        if unit not in own and self.source is not None:
+        if unit not in own:
             kind = "revolute" if revolute else "prismatic"
-            raise self.source.error(
-                ("units", name), f"is {unit!r}, but joint {joint + 1} is {kind}: one of {', '.join(own)}"
-            )
+            message = f"is {unit!r}, but joint {joint + 1} is {kind}: one of {', '.join(own)}"
+            if self.source is not None and name in self.source.data.get("units", {}):
+                raise self.source.error(("units", name), message)
+            raise InvalidInput(f"the unit in the name of the column of joint {joint + 1} {message}")
         return own[unit]
 
     def joint_unit_stated(self, joint: int) -> bool:
@@ -107,13 +120,40 @@ class ColumnMap:
 
 @dataclass(frozen=True)
 class FileColumns:
-    """The columns of one file by meaning; None where the file has no such quantity."""
+    """The columns of one file by meaning; None where the file has no such quantity.
+
+    `units` are those written into the columns' names, by quantity as in a column map.
+    """
 
     time: str
     joints: tuple[str, ...] | None
     specific_force: tuple[str, ...] | None
     angular_velocity: tuple[str, ...] | None
     temperature: str | None
+    sensor_time: str | None = None
+    units: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def joint_half(self) -> FileColumns:
+        """The joints alone."""
+        return replace(self, specific_force=None, angular_velocity=None, temperature=None, sensor_time=None)
+
+    @property
+    def sensor_half(self) -> FileColumns:
+        """The sensor alone, on its own clock where it has one."""
+        own = self.sensor_time or self.time
+        units = {
+            **self.units,
+            **({"t": self.units["t_sensor"]} if self.sensor_time and "t_sensor" in self.units else {}),
+        }
+        return replace(self, time=own, joints=None, sensor_time=None, units=units)
+
+    @property
+    def used(self) -> tuple[str, ...]:
+        """Every column that is read, once each."""
+        groups = ((self.time,), self.joints, self.specific_force, self.angular_velocity)
+        single = [name for name in (self.temperature, self.sensor_time) if name]
+        return tuple(dict.fromkeys([name for group in groups for name in group or ()] + single))
 
 
 def load_column_map(path: str | Path, arm: Arm) -> ColumnMap:
@@ -138,12 +178,12 @@ def load_column_map(path: str | Path, arm: Arm) -> ColumnMap:
     """
     document = load_yaml(path)
     joints = [f"q{index + 1}" for index in range(len(arm.joints))]
-    groups = {"q": joints, "a": [f"a{axis}" for axis in _AXES], "g": [f"g{axis}" for axis in _AXES]}
-    single = ["t", "temp", *(name for group in groups.values() for name in group)]
-    document.only_keys((), document.data, [*single, *groups, "units"])
+    groups = {"q": joints, "a": [f"a{axis}" for axis in AXES], "g": [f"g{axis}" for axis in AXES]}
+    single = ["t", "t_sensor", "temp", *(name for group in groups.values() for name in group)]
+    document.only_keys((), document.data, [*single, *groups, "units", *_TOPICS])
     names: dict[str, str] = {}
     for key, value in document.data.items():
-        if key == "units":
+        if key == "units" or key in _TOPICS:
             continue
         if key in groups:
             if not isinstance(value, list) or len(value) != len(groups[key]):
@@ -160,15 +200,16 @@ def load_column_map(path: str | Path, arm: Arm) -> ColumnMap:
             if column in names.values():
                 raise document.error((key,), f"column {column!r} is used for two quantities")
             names[name] = document.text((key,), column)
-    return ColumnMap(names, _units(document, joints), document)
+    topics = {key: document.text((key,), document.data[key]) for key in _TOPICS if key in document.data}
+    return ColumnMap(names, _units(document, joints), document, **topics)
 
 
-def find_columns(table: TableFile, arm: Arm, column_map: ColumnMap) -> FileColumns:
+def find_columns(table: LogTable, arm: Arm, column_map: ColumnMap) -> FileColumns:
     """Find out what each column of a file is.
 
     Parameters
     ----------
-    table : TableFile
+    table : LogTable
         The file's header.
     arm : Arm
         Its joints say how many position columns there must be.
@@ -184,54 +225,45 @@ def find_columns(table: TableFile, arm: Arm, column_map: ColumnMap) -> FileColum
     ------
     InvalidInput
         When time is missing, neither joints nor specific force are there, joints are incomplete or more than the arm
-        has, or a name that is used appears twice.
+        has, several sensors are there, or a name that is used appears twice.
     """
-    lookup = {name.lower(): name for name in reversed(table.columns)}
-    stated = {quantity: name for quantity, name in column_map.names.items() if name in table.columns}
-
-    def one(quantity: str, known: Sequence[str]) -> str | None:
-        return stated.get(quantity) or next((lookup[name] for name in known if name in lookup), None)
-
-    def three(letter: str, families: Sequence[Sequence[str]]) -> list[str | None]:
-        return _family([f"{letter}{axis}" for axis in _AXES], stated, families, lookup)
-
-    time = one("t", _TIME_NAMES)
-    force = three("a", _ACCELERATION_FAMILIES)
+    search = _Search(table, ColumnNames(table.columns), column_map)
+    force = search.three("a", ACCELERATION_FAMILIES)
     if any(force) and not all(force):
-        axis = _AXES[force.index(None)]
+        axis = AXES[force.index(None)]
         raise table.error(
             f"the column of specific force a{axis} is missing, though {_present(force)} is there; {_found(table)}"
         )
-    rate = three("g", _GYROSCOPE_FAMILIES)
+    joints = search.joints(arm)
     columns = FileColumns(
-        time=time or "",
-        joints=_joint_columns(table, arm, stated, lookup),
+        time=search.one("t", TIME_NAMES, "t") or "",
+        joints=joints,
         specific_force=_complete(force),
-        angular_velocity=_complete(rate),
-        temperature=one("temp", _TEMPERATURE_NAMES),
+        angular_velocity=_complete(search.three("g", GYROSCOPE_FAMILIES)),
+        temperature=search.one("temp", TEMPERATURE_NAMES, "temp"),
+        sensor_time=search.one("t_sensor", SENSOR_TIME_NAMES, "t") if joints and all(force) else None,
     )
-    if time is None:
+    if not columns.time:
         raise table.error(f"the time column is missing (t, time or timestamp); {_found(table)}")
     if columns.joints is None and columns.specific_force is None:
         raise table.error(
             f"neither joint positions (q1 .. q{len(arm.joints)}) nor specific force (ax, ay, az) are among the "
             f"columns; {_found(table)}"
         )
-    used = [columns.time, *(columns.joints or ()), *(columns.specific_force or ()), *(columns.angular_velocity or ())]
-    for name in [*used, *([columns.temperature] if columns.temperature else [])]:
+    for name in columns.used:
         if table.columns.count(name) > 1:
             raise table.error(
                 f"column `{name}` is there {table.columns.count(name)} times; rename or remove all but one"
             )
-    return columns
+    return replace(columns, units=search.units)
 
 
-def missing_specific_force(table: TableFile) -> str:
+def missing_specific_force(table: LogTable) -> str:
     """Return what to say of a log without any accelerometer in it."""
     return f"the specific force columns (ax, ay, az) are missing; {_found(table)}"
 
 
-def missing_joints(table: TableFile, arm: Arm) -> str:
+def missing_joints(table: LogTable, arm: Arm) -> str:
     """Return what to say of a log without any joint positions in it."""
     return f"the joint position columns (q1 .. q{len(arm.joints)}) are missing; {_found(table)}"
 
@@ -239,7 +271,8 @@ def missing_joints(table: TableFile, arm: Arm) -> str:
 def _units(document: YamlFile, joints: list[str]) -> dict[str, str]:
     if document.data.get("units") is None:
         return {}
-    known: dict[str, Any] = {"t": TIME_UNITS, "a": ACCELERATION_UNITS, "g": RATE_UNITS, "temp": TEMPERATURE_UNITS}
+    known: dict[str, Any] = {"t": TIME_UNITS, "t_sensor": TIME_UNITS, "a": ACCELERATION_UNITS, "g": RATE_UNITS}
+    known["temp"] = TEMPERATURE_UNITS
     known |= dict.fromkeys(["q", *joints], ANGLE_UNITS | LENGTH_UNITS)
     units: dict[str, str] = {}
     for key, value in document.only_keys(("units",), document.data["units"], known).items():
@@ -249,46 +282,80 @@ def _units(document: YamlFile, joints: list[str]) -> dict[str, str]:
     return units
 
 
-def _family(
-    quantities: Sequence[str], stated: dict[str, str], families: Sequence[Sequence[str]], lookup: dict[str, str]
-) -> list[str | None]:
-    """Columns of a group of quantities: as stated, else of the family of known names with most members here."""
-    best = max(families, key=lambda family: sum(name in lookup for name in family))
-    return [stated.get(quantity) or lookup.get(name) for quantity, name in zip(quantities, best, strict=True)]
+class _Search:
+    """Columns by quantity: as stated, else by known names; and the units written into the names."""
 
+    def __init__(self, table: LogTable, names: ColumnNames, column_map: ColumnMap) -> None:
+        self.table = table
+        self.names = names
+        self.stated = {quantity: name for quantity, name in column_map.names.items() if name in table.columns}
+        self.units: dict[str, str] = {}
 
-def _joint_columns(
-    table: TableFile, arm: Arm, stated: dict[str, str], lookup: dict[str, str]
-) -> tuple[str, ...] | None:
-    count = len(arm.joints)
-    quantities = [f"q{index + 1}" for index in range(count)]
-    numbered = {
-        (stem, first): [f"{stem}{index + first}" for index in range(count)]
-        for stem, first in _JOINT_STEMS
-        if first == 0 or f"{stem}0" not in lookup
-    }
-    families = [*numbered.values(), [joint.name.lower() for joint in arm.joints]]
-    columns = _family(quantities, stated, families, lookup)
-    if not any(columns):
-        return None
-    remedy = "use the arm that was recorded, or name the columns with --columns map.yaml"
-    for (stem, first), family in numbered.items():
-        if stated or columns != [lookup.get(name) for name in family]:
-            continue
-        there = sum(f"{stem}{index + first}" in lookup for index in range(count + 100))
-        if there != count:
-            raise table.error(
-                f"has {there} joint columns ({stem}{first} .. {stem}{there - 1 + first}), but the arm {arm.name!r} "
-                f"has {count} joints; "
-                f"{remedy}"
+    def one(self, quantity: str, known: Sequence[str], unit: str) -> str | None:
+        if quantity in self.stated:
+            return self.stated[quantity]
+        found = next((match for name in known if (match := self.names.find(name, unit))), None)
+        if found and found[1]:
+            self.units[quantity] = found[1]
+        return found and found[0]
+
+    def three(self, letter: str, families: Sequence[Sequence[str]]) -> list[str | None]:
+        quantities = [f"{letter}{axis}" for axis in AXES]
+        match = self.names.best(families, letter)
+        if match.found < len(AXES) and not any(quantity in self.stated for quantity in quantities):
+            behind = self.names.behind_prefix(families, letter)
+            self._require_one_sensor(behind, letter)
+            match = next(iter(behind.values())) if len(behind) == 1 else match
+        self._take_units(dict.fromkeys(quantities, letter), quantities, match)
+        return self._columns(quantities, match)
+
+    def joints(self, arm: Arm) -> tuple[str, ...] | None:
+        count = len(arm.joints)
+        quantities = [f"q{index + 1}" for index in range(count)]
+        families = joint_families(arm.joint_names, self.names)
+        match = self.names.best(list(families.values()), "q")
+        if match.found < count and not any(quantity in self.stated for quantity in quantities):
+            match = joints_behind_prefix(families, self.names) or match
+        columns = self._columns(quantities, match)
+        if not any(columns):
+            return None
+        for key, family in families.items():
+            if isinstance(key, tuple) and not self.stated and columns == list(self.names.family(family, "q").columns):
+                self._require_count(arm, *key)
+        if not all(columns):
+            joint = columns.index(None)
+            raise self.table.error(
+                f"the column of joint {joint + 1} ({arm.joints[joint].name}) is missing, though {_present(columns)} is "
+                f"there; {_found(self.table)}"
             )
-    if not all(columns):
-        joint = columns.index(None)
-        raise table.error(
-            f"the column of joint {joint + 1} ({arm.joints[joint].name}) is missing, though {_present(columns)} is "
-            f"there; {_found(table)}"
-        )
-    return _complete(columns)
+        self._take_units({quantity: quantity for quantity in quantities}, quantities, match)
+        return _complete(columns)
+
+    def _columns(self, quantities: Sequence[str], match: Match) -> list[str | None]:
+        return [self.stated.get(quantity) or column for quantity, column in zip(quantities, match.columns, strict=True)]
+
+    def _take_units(self, keys: dict[str, str], quantities: Sequence[str], match: Match) -> None:
+        for quantity, unit in zip(quantities, match.units, strict=True):
+            if unit and quantity not in self.stated:
+                self.units[keys[quantity]] = unit
+
+    def _require_one_sensor(self, behind: dict[str, Match], letter: str) -> None:
+        if len(behind) > 1 and letter == "a":
+            first = ", ".join(str(name) for name in next(iter(behind.values())).columns)
+            raise self.table.error(
+                f"several accelerometers are there ({', '.join(sorted(behind))}); say which one is on the end-point, "
+                f"such as `a: [{first}]` in a column map (--columns map.yaml)"
+            )
+
+    def _require_count(self, arm: Arm, template: str, first: int) -> None:
+        count = len(arm.joints)
+        there = sum(self.names.find(template.format(index + first), "q") is not None for index in range(count + 100))
+        if there != count:
+            raise self.table.error(
+                f"has {there} joint columns ({template.format(first)} .. {template.format(there - 1 + first)}), but "
+                f"the arm {arm.name!r} has {count} joints; use the arm that was recorded, or name the columns with "
+                f"--columns map.yaml"
+            )
 
 
 def _complete(columns: Sequence[str | None]) -> tuple[str, ...] | None:
@@ -300,6 +367,7 @@ def _present(columns: Sequence[str | None]) -> str:
     return "`" + next(column for column in columns if column is not None) + "`"
 
 
-def _found(table: TableFile) -> str:
+def _found(table: LogTable) -> str:
     shown = ", ".join(table.columns[:40]) + (", ..." if len(table.columns) > 40 else "")
-    return f"the columns found are {shown}; other names are given with --columns map.yaml"
+    hint = table.hint and f"{table.hint}; "
+    return f"{hint}the columns found are {shown}; other names are given with --columns map.yaml"

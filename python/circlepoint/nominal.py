@@ -10,9 +10,9 @@ import circlepoint
 from circlepoint._core import InvalidInput
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
-    from circlepoint.arm import Arm
+    from circlepoint.arm import Arm, NominalLines
 
 DhChain = circlepoint.StandardDhChain | circlepoint.ModifiedDhChain
 
@@ -39,17 +39,38 @@ def nominal_chain(arm: Arm, reference_configuration: ArrayLike) -> circlepoint.S
     Parameters
     ----------
     arm : Arm
-        With nominal Denavit-Hartenberg rows.
+        With nominal Denavit-Hartenberg rows or lines.
     reference_configuration : array_like, shape (n,)
         rad or m.
 
     Raises
     ------
     InvalidInput
-        When the arm has no nominal rows.
+        When the arm has neither.
     """
-    chain = nominal_dh_chain(arm)
-    if chain is None:
-        raise InvalidInput(f"arm {arm.name!r} has no nominal `dh`; add its rows to the arm's description")
     reference = np.ascontiguousarray(reference_configuration, dtype=float)
-    return circlepoint.to_screws(chain, reference, circlepoint.BaseFrame.chain_base)
+    chain = nominal_dh_chain(arm)
+    if chain is not None:
+        return circlepoint.to_screws(chain, reference, circlepoint.BaseFrame.chain_base)
+    if arm.lines is None:
+        raise InvalidInput(f"arm {arm.name!r} has no nominal `dh` or `lines`; add them to the arm's description")
+    return _moved(_line_chain(arm, arm.lines), reference)
+
+
+def _line_chain(arm: Arm, lines: NominalLines) -> circlepoint.ScrewChain:
+    axes = [
+        circlepoint.ScrewAxis(type=kind, line=circlepoint.make_line(np.array(row.direction), np.array(row.point)))
+        for kind, row in zip(joint_types(arm), lines.rows, strict=True)
+    ]
+    home = np.eye(4) if lines.tip is None else np.array(lines.tip)
+    return circlepoint.ScrewChain(axes, np.array(lines.reference_configuration), home)
+
+
+def _moved(chain: circlepoint.ScrewChain, reference: NDArray[np.float64]) -> circlepoint.ScrewChain:
+    """Return the same chain in the same base frame, its joints standing elsewhere."""
+    pose = np.eye(4)
+    axes = []
+    for axis, turn in zip(chain.axes, reference - chain.reference_configuration, strict=True):
+        axes.append(circlepoint.ScrewAxis(type=axis.type, line=circlepoint.transform(pose, axis.line)))
+        pose = pose @ circlepoint.screw_exp(axis, float(turn))
+    return circlepoint.ScrewChain(axes, reference, pose @ chain.home)

@@ -145,19 +145,20 @@ def specific_force_findings(
             )
             continue
         for extreme in (float(values.max()), float(values.min())):
-            clipped = _clipped(force, channel, extreme)
+            clipped = find_clipped(force, channel, extreme)
             if clipped.any():
-                share = float(clipped.mean())
-                findings.append(
-                    Finding(
-                        "clipping",
-                        f"{source}: column `{name}` is stuck at {extreme:.6g} m/s^2 in {int(clipped.sum())} samples "
-                        f"({100 * share:.2g} %, first "
-                        f"at {time[int(np.argmax(clipped))]:.6g} s): the sensor's range ends there; move slower or "
-                        f"choose a wider range",
-                    )
-                )
+                first, count = float(time[int(np.argmax(clipped))]), int(clipped.sum())
+                findings.append(clipping_finding(source, name, extreme, count=count, rows=time.size, first=first))
     return findings
+
+
+def clipping_finding(source: str, column: str, extreme: float, *, count: int, rows: int, first: float) -> Finding:
+    """Return what to say of a channel that was at the end of its range: `count` of `rows` samples, the first at s."""
+    return Finding(
+        "clipping",
+        f"{source}: column `{column}` is stuck at {extreme:.6g} m/s^2 in {count} samples ({100 * count / rows:.2g} %, "
+        f"first at {first:.6g} s): the sensor's range ends there; move slower or choose a wider range",
+    )
 
 
 def encoder_step(values: FloatArray) -> float | None:
@@ -197,7 +198,7 @@ def _require_si_position(low: float, high: float, arm: Arm, index: int, source: 
             span = highest - lowest
             outside = low < lowest - 0.25 * span or high > highest + 0.25 * span
             as_degrees = lowest <= math.radians(low) + _LIMIT_MARGIN and math.radians(high) <= highest + _LIMIT_MARGIN
-            implausible = outside and as_degrees
+            implausible = outside and as_degrees and not _whole_turns_away(low, high, lowest, highest)
         else:
             implausible = largest > _LARGEST_TURN or high - low > _LARGEST_TRAVEL
         if implausible:
@@ -209,6 +210,18 @@ def _require_si_position(low: float, high: float, arm: Arm, index: int, source: 
     elif largest > _LARGEST_REACH:
         likely = "mm" if largest < _LARGEST_REACH / LENGTH_UNITS["mm"] else "um"
         raise InvalidInput(f"{name}: too far for metres, it looks like {likely}; {state % f'q{index + 1}: {likely}'}")
+
+
+def _whole_turns_away(low: float, high: float, lowest: float, highest: float) -> bool:
+    """Whether a joint that can make a whole turn, as wrists do, may have made several."""
+    turn = 2 * math.pi
+    turns = round(((low + high) - (lowest + highest)) / (2 * turn)) * turn
+    return (
+        highest - lowest >= turn
+        and max(abs(low), abs(high)) < _LARGEST_TURN
+        and lowest <= low - turns
+        and high - turns <= highest
+    )
 
 
 def _require_si_force(magnitude: float, source: str, column_map: ColumnMap, gravity: float) -> None:
@@ -235,7 +248,7 @@ def _require_si_force(magnitude: float, source: str, column_map: ColumnMap, grav
         )
 
 
-def _clipped(force: FloatArray, channel: int, extreme: float) -> NDArray[np.bool_]:
+def find_clipped(force: FloatArray, channel: int, extreme: float) -> NDArray[np.bool_]:
     """Find samples of one channel in long runs at its extreme while another channel moves."""
     at = np.asarray(force[:, channel] == extreme, dtype=np.bool_)
     clipped: NDArray[np.bool_] = np.zeros(at.shape, dtype=np.bool_)

@@ -1,13 +1,14 @@
-"""Recordings in files: CSV and Parquet, one clock or two, several files as one recording.
+"""Recordings in files: CSV, Parquet and bags, one clock or two, several files as one recording.
 
 A file with joint positions and specific force is a recording. Files with only the one and only the other come from two
-machines with two clocks: offset and rate between them are estimated, and the two become one recording. Several
-recordings become one, in the order given.
+machines with two clocks: offset and rate between them are estimated, and the two become one recording. One file may
+hold two rates: the topics of a bag, a sensor with its own time column, rows of joints between rows of the sensor.
+Several recordings become one, in the order given.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,8 @@ from numpy.typing import NDArray
 
 import circlepoint
 from circlepoint._core import STANDARD_GRAVITY, InvalidInput
+from circlepoint.bags import is_bag, open_bag
+from circlepoint.clocks import Log, assemble
 from circlepoint.column_map import (
     ACCELERATION_UNITS,
     RATE_UNITS,
@@ -29,6 +32,8 @@ from circlepoint.column_map import (
     missing_specific_force,
 )
 from circlepoint.findings import Finding
+from circlepoint.log_table import LogTable, SelectedRows, require_finite
+from circlepoint.long_logs import gap_options, read_column, thin, thinning_factor
 from circlepoint.plausibility import (
     encoder_findings,
     encoder_step,
@@ -37,10 +42,12 @@ from circlepoint.plausibility import (
     time_findings,
     unwrap_joints,
 )
-from circlepoint.tables import TableFile, open_table, read_numbers, require_finite
+from circlepoint.quantities import Quantity, quantities
+from circlepoint.stamps import require_order, table_timeline
+from circlepoint.tables import open_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from circlepoint.arm import Arm
 
@@ -48,6 +55,8 @@ FloatArray = NDArray[np.float64]
 
 MIN_SAMPLES = 8
 """Fewer rows have no sample rate."""
+MIN_SHARE = 0.02
+"""Part of the rows without joints, and of those without sensor, above which one log holds two rates."""
 
 
 @dataclass(frozen=True)
@@ -58,19 +67,25 @@ class LogFile:
     ----------
     path : Path
         The file.
+    part : str
+        Which part of it, such as a topic of a bag; empty: all.
     samples : int
         Rows.
     joints, sensor : bool
         Whether it holds joint positions, specific force.
     timeline : TimelineReport
         Rate, jitter and gaps of its stamps.
+    quantities : tuple of Quantity
+        What its columns were taken for.
     """
 
     path: Path
+    part: str
     samples: int
     joints: bool
     sensor: bool
     timeline: circlepoint.TimelineReport
+    quantities: tuple[Quantity, ...]
 
 
 @dataclass(frozen=True)
@@ -84,7 +99,7 @@ class LoadedRecording:
     files : tuple of LogFile
         In the order given.
     clock_alignments : tuple of ClockAlignment
-        One for each pair of joint and sensor files; empty where one clock stamped both.
+        One for each pair of joint and sensor logs on two clocks; empty where one clock stamped both.
     encoder_steps : tuple of (float or None)
         Smallest step seen of each joint, rad or m; None where it never moved.
     findings : tuple of Finding
@@ -98,39 +113,30 @@ class LoadedRecording:
     findings: tuple[Finding, ...]
 
 
-@dataclass(frozen=True)
-class _Log:
-    """One file's samples in SI units, each checked."""
-
-    table: TableFile
-    time: FloatArray
-    joint_positions: FloatArray | None
-    specific_force: FloatArray | None
-    angular_velocity: FloatArray | None
-    temperature: FloatArray | None
-    timeline: circlepoint.TimelineReport
-    findings: list[Finding]
-
-
 def read_recording(
     paths: str | Path | Sequence[str | Path],
     arm: Arm,
     columns: str | Path | None = None,
     *,
     gravity: float = STANDARD_GRAVITY,
+    joint_topic: str | None = None,
+    imu_topic: str | None = None,
 ) -> LoadedRecording:
     """Read the files of a recording.
 
     Parameters
     ----------
     paths : path or sequence of paths
-        CSV (``.csv``, ``.csv.gz``) or Parquet files with a time column and joint positions, specific force, or both.
+        CSV (``.csv``, ``.csv.gz``), Parquet, ROS 1 bag (``.bag``) or ROS 2 bag (a folder, ``.db3``, ``.mcap``), with
+        time and joint positions, specific force, or both.
     arm : Arm
         The arm that was recorded.
     columns : path, optional
         Column map for other names and units (see `circlepoint.column_map`).
     gravity : float, optional
         Local gravity, m/s^2, against which the accelerometer's unit is judged.
+    joint_topic, imu_topic : str, optional
+        Topics of a bag with several ``sensor_msgs/JointState`` or ``sensor_msgs/Imu``.
 
     Returns
     -------
@@ -149,33 +155,50 @@ def read_recording(
         if path in files[:index]:
             raise InvalidInput(f"{path}: was given twice; give each file once")
     column_map = load_column_map(columns, arm) if columns is not None else ColumnMap()
-    tables = [open_table(path) for path in files]
+    topics = (joint_topic or column_map.joint_topic, imu_topic or column_map.imu_topic)
+    tables: list[LogTable] = []
+    for path in files:
+        tables += open_bag(path, arm, column_map, *topics) if is_bag(path) else [open_table(path)]
+    if any(topics) and not any(is_bag(path) for path in files):
+        raise InvalidInput(f"{files[0]}: is not a bag; joint and IMU topics are for bags only")
+    return read_tables(tables, arm, column_map, gravity=gravity)
+
+
+def read_tables(
+    tables: Sequence[LogTable], arm: Arm, column_map: ColumnMap, *, gravity: float = STANDARD_GRAVITY
+) -> LoadedRecording:
+    """Make one recording of tables that were opened; see `read_recording`."""
     _require_stated_columns(tables, column_map)
     found = [find_columns(table, arm, column_map) for table in tables]
     _require_both_halves(tables, found, arm)
-    logs = [_read_log(table, names, arm, column_map, gravity) for table, names in zip(tables, found, strict=True)]
-    recordings, alignments = _assemble(logs)
+    logs = [
+        log
+        for table, names in zip(tables, found, strict=True)
+        for log in _read_logs(table, names, arm, column_map, gravity)
+    ]
+    assembly = assemble(logs)
+    recordings = assembly.recordings
     recording = recordings[0] if len(recordings) == 1 else circlepoint.concatenate(recordings)
     steps = _encoder_steps(logs, len(arm.joints))
     findings = [finding for log in logs for finding in log.findings]
     return LoadedRecording(
         recording=recording,
-        files=tuple(_describe(log) for log in logs),
-        clock_alignments=tuple(alignments),
+        files=tuple(_describe(log, arm) for log in logs),
+        clock_alignments=tuple(assembly.alignments),
         encoder_steps=steps,
-        findings=(*findings, *encoder_findings(steps, arm)),
+        findings=(*findings, *assembly.findings, *encoder_findings(steps, arm)),
     )
 
 
-def _require_stated_columns(tables: Sequence[TableFile], column_map: ColumnMap) -> None:
+def _require_stated_columns(tables: Sequence[LogTable], column_map: ColumnMap) -> None:
     present = {name for table in tables for name in table.columns}
     for quantity, name in column_map.names.items():
         if name not in present and column_map.source is not None:
-            found = "; ".join(f"{table.path} has {', '.join(table.columns[:40])}" for table in tables)
+            found = "; ".join(f"{table.label} has {', '.join(table.columns[:40])}" for table in tables)
             raise column_map.source.error((quantity,), f"names the column {name!r}, which no file has: {found}")
 
 
-def _require_both_halves(tables: Sequence[TableFile], found: Sequence[FileColumns], arm: Arm) -> None:
+def _require_both_halves(tables: Sequence[LogTable], found: Sequence[FileColumns], arm: Arm) -> None:
     joints = [table for table, names in zip(tables, found, strict=True) if names.specific_force is None]
     sensors = [table for table, names in zip(tables, found, strict=True) if names.joints is None]
     if joints and not sensors:
@@ -191,13 +214,80 @@ def _require_both_halves(tables: Sequence[TableFile], found: Sequence[FileColumn
         )
 
 
-def _paths(tables: Iterable[TableFile]) -> str:
-    return ", ".join(str(table.path) for table in tables)
+def _paths(tables: Iterable[LogTable]) -> str:
+    return ", ".join(table.label for table in tables)
 
 
-def _read_log(table: TableFile, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> _Log:
-    wanted = [names.time, *(names.joints or ()), *(names.specific_force or ()), *(names.angular_velocity or ())]
-    data = read_numbers(table, [*wanted, *([names.temperature] if names.temperature else [])])
+def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Iterator[Log]:
+    """Yield the log in a table, or the two of different rates or clocks."""
+    if table.long and not (names.joints and names.specific_force and names.sensor_time):
+        yield _read_long_log(table, names, arm, column_map, gravity)
+        return
+    data = table.read(names.used)
+    halves: list[tuple[LogTable, FileColumns]] = [(table, names)]
+    if names.joints and names.specific_force:
+        halves = _two_rates(table, names, data) or halves
+        if names.sensor_time and len(halves) == 1:
+            halves = [(table, names.joint_half), (table, names.sensor_half)]
+    claimed = bool(table.part) or (len(halves) == 2 and not names.sensor_time)
+    for half, columns in halves:
+        values = half.read(columns.used) if half is not table else data
+        yield replace(_read_log(half, columns, values, arm, column_map, gravity=gravity), one_clock=claimed)
+
+
+def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Log:
+    """Read a log that may be too long for memory: its time first, which says how much of it to keep."""
+    units = {**names.units, **column_map.units}
+    second = TIME_UNITS[units.get("t", "s")]
+    stamps = read_column(table, names.time)
+    rate = (stamps.size - 1) / max(float(stamps[-1] - stamps[0]) * second, 1e-9) if stamps.size > 1 else 0.0
+    factor = thinning_factor(stamps.size, rate) if np.isfinite(rate) else 1
+    if factor == 1:
+        del stamps
+        return _read_log(table, names, table.read(names.used), arm, column_map, gravity=gravity)
+    require_finite(table, names.time, stamps)
+    require_order(table, names.time, stamps)
+    stamps *= second
+    timeline = table_timeline(table, stamps, gap_options(factor))
+    thinned = thin(
+        table,
+        names,
+        stamps,
+        timeline,
+        factor=factor,
+        units=(second, ACCELERATION_UNITS[units.get("a", "m/s^2")]),
+    )
+    del stamps
+    log = _read_log(table, names, thinned.data, arm, column_map, gravity=gravity)
+    notes = [Finding("timeline", f"{table.label}: {note}") for note in timeline.notes]
+    kept = [finding for finding in log.findings if finding.code not in {"timeline", "clipping"}]
+    return replace(log, timeline=timeline, findings=[*notes, *thinned.findings, *kept])
+
+
+def _two_rates(
+    table: LogTable, names: FileColumns, data: dict[str, FloatArray]
+) -> list[tuple[LogTable, FileColumns]] | None:
+    """Return the rows of joints and the rows of the sensor, where one log holds two rates; None where it does not."""
+    joints, sensor = (
+        np.logical_and.reduce([np.isnan(data[name]) for name in group])
+        for group in (names.joints or (), names.specific_force or ())
+    )
+    if data[names.time].size < MIN_SAMPLES or max(joints.mean(), sensor.mean()) < MIN_SHARE:
+        return None
+    halves = ((~joints, names.joint_half), (~sensor, names.sensor_half))
+    return [(SelectedRows(table, data, np.flatnonzero(rows)), columns) for rows, columns in halves]
+
+
+def _read_log(
+    table: LogTable,
+    names: FileColumns,
+    data: dict[str, FloatArray],
+    arm: Arm,
+    column_map: ColumnMap,
+    *,
+    gravity: float,
+) -> Log:
+    column_map = replace(column_map, units={**names.units, **column_map.units})
     rows = data[names.time].size
     if rows < MIN_SAMPLES:
         raise table.error(
@@ -205,11 +295,12 @@ def _read_log(table: TableFile, names: FileColumns, arm: Arm, column_map: Column
         )
     for name in (names.time, *(names.joints or ()), *(names.specific_force or ())):
         require_finite(table, name, data[name])
-    source = str(table.path)
+    source = table.label
     time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
-    _require_order(table, names.time, data[names.time])
-    timeline = _timeline(table, time)
-    findings = [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
+    require_order(table, names.time, data[names.time])
+    timeline = table_timeline(table, time)
+    findings = list(table.findings)
+    findings += [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
     findings += time_findings(time, timeline.sample_rate, source, column_map)
     positions = force = None
     if names.joints:
@@ -225,39 +316,12 @@ def _read_log(table: TableFile, names: FileColumns, arm: Arm, column_map: Column
             time, force, names.specific_force, source, column_map=column_map, gravity=gravity
         )
     gyroscope, temperature, more = _optional_columns(table, names, data, time, column_map)
-    return _Log(table, time, positions, force, gyroscope, temperature, timeline, [*findings, *more])
-
-
-def _require_order(table: TableFile, name: str, stamps: FloatArray) -> None:
-    backwards = np.flatnonzero(np.diff(stamps) < 0)
-    if backwards.size:
-        row = int(backwards[0]) + 1
-        raise table.error(
-            f"time runs backwards: column `{name}` is {stamps[row]:.12g} after {stamps[row - 1]:.12g} "
-            f"({backwards.size} such rows); sort "
-            "the rows, or split the log there into two files",
-            row,
-        )
-
-
-def _timeline(table: TableFile, time: FloatArray) -> circlepoint.TimelineReport:
-    if time[0] == time[-1]:
-        raise table.error(f"time stands still: every stamp is {time[0]:.12g} s; log the time each sample was taken")
-    timeline = circlepoint.analyse_timeline(time)
-    if timeline.surplus:
-        first = timeline.surplus[0]
-        raise table.error(
-            f"the time stamp {first.value:.12g} s comes again, and the rows around it are more than the "
-            f"{timeline.sample_rate:.6g} Hz clock can "
-            f"have made ({len(timeline.surplus)} such rows): rows written twice, or stamps that are too coarse; "
-            f"remove the repeated rows",
-            int(first.index),
-        )
-    return timeline
+    findings += more
+    return Log(table, names, time, positions, force, gyroscope, temperature, timeline, findings, dict(column_map.units))
 
 
 def _optional_columns(
-    table: TableFile, names: FileColumns, data: dict[str, FloatArray], time: FloatArray, column_map: ColumnMap
+    table: LogTable, names: FileColumns, data: dict[str, FloatArray], time: FloatArray, column_map: ColumnMap
 ) -> tuple[FloatArray | None, FloatArray | None, list[Finding]]:
     """Gyroscope and temperature, where they can be used; a finding where not."""
     findings: list[Finding] = []
@@ -268,14 +332,14 @@ def _optional_columns(
             * RATE_UNITS[column_map.units.get("g", "rad/s")]
         )
         if not np.isfinite(gyroscope).all():
-            findings.append(Finding("gyroscope", f"{table.path}: the gyroscope's columns have empty cells: not used"))
+            findings.append(Finding("gyroscope", f"{table.label}: the gyroscope's columns have empty cells: not used"))
             gyroscope = None
         elif np.abs(gyroscope).max() > 40.0 and "g" not in column_map.units:
             largest = np.abs(gyroscope).max()
             findings.append(
                 Finding(
                     "gyroscope",
-                    f"{table.path}: the gyroscope reads up to {largest:.4g} rad/s: if that is deg/s, add `units: "
+                    f"{table.label}: the gyroscope reads up to {largest:.4g} rad/s: if that is deg/s, add `units: "
                     f"{{g: deg/s}}` to a column map",
                 )
             )
@@ -288,56 +352,11 @@ def _optional_columns(
         if not known.all():
             share = f"{np.count_nonzero(~known)} of {known.size} cells of `{names.temperature}` are empty"
             done = "interpolated between the others" if known.any() else "not used"
-            findings.append(Finding("temperature", f"{table.path}: {share}: {done}"))
+            findings.append(Finding("temperature", f"{table.label}: {share}: {done}"))
     return gyroscope, temperature, findings
 
 
-def _assemble(logs: Sequence[_Log]) -> tuple[list[circlepoint.Recording], list[circlepoint.ClockAlignment]]:
-    recordings: list[circlepoint.Recording] = []
-    alignments: list[circlepoint.ClockAlignment] = []
-    sensors = iter(
-        [(log, log.specific_force) for log in logs if log.joint_positions is None and log.specific_force is not None]
-    )
-    for log in logs:
-        if log.joint_positions is None:
-            continue
-        if log.specific_force is not None:
-            recordings.append(
-                circlepoint.make_recording(
-                    log.time,
-                    log.joint_positions,
-                    log.specific_force,
-                    angular_velocity=log.angular_velocity,
-                    temperature=log.temperature,
-                )
-            )
-            continue
-        recording, alignment = _on_two_clocks(log, log.joint_positions, *next(sensors))
-        recordings.append(recording)
-        alignments.append(alignment)
-    return recordings, alignments
-
-
-def _on_two_clocks(
-    joints: _Log, joint_positions: FloatArray, sensor: _Log, specific_force: FloatArray
-) -> tuple[circlepoint.Recording, circlepoint.ClockAlignment]:
-    try:
-        alignment = circlepoint.align_clocks(joints.time, joint_positions, sensor.time, specific_force)
-        recording = circlepoint.make_recording(
-            joints.time,
-            joint_positions,
-            sensor.time,
-            specific_force,
-            alignment.clock,
-            angular_velocity=sensor.angular_velocity,
-            temperature=sensor.temperature,
-        )
-    except circlepoint.Error as error:
-        raise type(error)(f"{joints.table.path} and {sensor.table.path}: {error}") from error
-    return recording, alignment
-
-
-def _encoder_steps(logs: Sequence[_Log], joints: int) -> tuple[float | None, ...]:
+def _encoder_steps(logs: Sequence[Log], joints: int) -> tuple[float | None, ...]:
     steps: list[float | None] = []
     for index in range(joints):
         seen = [encoder_step(log.joint_positions[:, index]) for log in logs if log.joint_positions is not None]
@@ -345,11 +364,13 @@ def _encoder_steps(logs: Sequence[_Log], joints: int) -> tuple[float | None, ...
     return tuple(steps)
 
 
-def _describe(log: _Log) -> LogFile:
+def _describe(log: Log, arm: Arm) -> LogFile:
     return LogFile(
         path=log.table.path,
+        part=log.table.part,
         samples=int(log.time.size),
         joints=log.joint_positions is not None,
         sensor=log.specific_force is not None,
         timeline=log.timeline,
+        quantities=quantities(log, arm),
     )

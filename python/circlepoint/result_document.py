@@ -113,7 +113,7 @@ def _joint_entries(
 def _nominal_entries(arm: Arm, joints: circlepoint.JointCalibration) -> dict[int, Document]:
     """Return where the arm's description puts the estimated lines, its frame fitted to them; two lines at least."""
     found = {e.joint: e.axis.screw.line for e in joints.joints if e.axis is not None}
-    if arm.dh is None or len(found) < 2:
+    if not arm.has_nominal or len(found) < 2:
         return {}
     chain = nominal_chain(arm, joints.reference_configuration)
     lines = {joint: chain.axes[joint].line for joint in found}

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TextIO
+from typing import Any, Literal, TextIO
 
 import numpy as np
 import pyarrow as pa
@@ -23,8 +23,13 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from circlepoint._core import InvalidInput
+from circlepoint.findings import Finding
+from circlepoint.log_table import MANY_ROWS
 
 _DELIMITERS = (",", ";", "\t")
+_BLOCK_ROWS = 1 << 17  # rows of a piece of a Parquet file
+_COMPRESSION = 10  # of a CSV file, at most
+_BLOCK_BYTES = 1 << 22  # bytes of a piece of a CSV file
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,46 @@ class TableFile:
     delimiter: str = ","
     decimal_point: str = "."
     header_line: int = 1
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+        return str(self.path)
+
+    @property
+    def part(self) -> str:
+        """Which part of the file it is: all."""
+        return ""
+
+    @property
+    def hint(self) -> str:
+        """What else is there."""
+        return ""
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What opening it has shown: nothing."""
+        return ()
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory, by its size; CSV says its number of rows only when read."""
+        if self.kind == "parquet":
+            with _parquet_blame(self):
+                return int(pyarrow.parquet.read_metadata(self.path).num_rows) > MANY_ROWS
+        size = self.path.stat().st_size * (_COMPRESSION if self.path.suffix.lower() == ".gz" else 1)
+        return size > 2 * MANY_ROWS * len(self.columns)  # a cell has two characters at least
+
+    def read(self, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+        """Read columns as numbers (see `read_numbers`)."""
+        return read_numbers(self, names)
+
+    def batches(self, names: Sequence[str]) -> Iterator[dict[str, NDArray[np.float64]]]:
+        """Read columns as numbers, piece by piece (see `read_numbers`)."""
+        columns = list(dict.fromkeys(names))
+        for content in _stream_parquet(self, columns) if self.kind == "parquet" else _stream_csv(self, columns):
+            yield {name: np.array(_as_float(content.column(name))) for name in columns}
+        pa.default_memory_pool().release_unused()  # what reading needed is needed for other things now
 
     def place(self, row: int) -> str:
         """Where a data row (0-based) is in the file: ``"line 12"``, ``"row 11"`` for Parquet."""
@@ -110,23 +155,6 @@ def read_numbers(table: TableFile, names: Sequence[str]) -> dict[str, NDArray[np
     return {name: np.ascontiguousarray(_as_float(content.column(name))) for name in columns}
 
 
-def require_finite(table: TableFile, name: str, values: NDArray[np.float64]) -> None:
-    """Raise InvalidInput at the first value that is empty, NaN or infinite."""
-    bad = np.flatnonzero(~np.isfinite(values))
-    if not bad.size:
-        return
-    row = int(bad[0])
-    others = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
-    if np.isinf(values[row]):
-        raise table.error(f"column `{name}` is {values[row]}, must be finite{others}; remove the row", row)
-    raise table.error(
-        f"column `{name}` is empty or not a number{others}; remove such rows (a gap is handled), and where joints and "
-        f"sensor "
-        "were logged at different rates, write them to two files",
-        row,
-    )
-
-
 def _open_csv(path: Path) -> TableFile:
     with _text(path) as stream:
         line_number = 0
@@ -142,6 +170,8 @@ def _open_csv(path: Path) -> TableFile:
     if not header:
         raise InvalidInput(f"{path}: is empty; a header line and samples are needed")
     delimiter = max(_DELIMITERS, key=header.count)
+    if delimiter not in header and _numbers_between_spaces(header, following):
+        delimiter = " "
     columns = tuple(name.strip() for name in next(csv.reader([header.removeprefix("#").lstrip()], delimiter=delimiter)))
     if len(columns) < 2:
         raise InvalidInput(
@@ -157,19 +187,48 @@ def _open_csv(path: Path) -> TableFile:
     return TableFile(path, "csv", columns, delimiter, "," if decimal_comma else ".", line_number)
 
 
+def _numbers_between_spaces(header: str, following: str) -> bool:
+    """Whether columns are separated by single spaces, as Universal Robots' own recorder writes them."""
+    cells = following.strip().split(" ")
+    return len(cells) > 1 and len(cells) == len(header.strip().split(" ")) and all(map(_is_number, cells))
+
+
 def _read_csv(table: TableFile, names: list[str]) -> pa.Table:
-    types = dict.fromkeys(names, pa.float64())
+    with _csv_blame(table, names):
+        return pyarrow.csv.read_csv(table.path, **_csv_options(table, names))
+
+
+def _stream_csv(table: TableFile, names: list[str]) -> Iterator[pa.RecordBatch]:
+    with (
+        _csv_blame(table, names),
+        pyarrow.csv.open_csv(table.path, **_csv_options(table, names, block_size=_BLOCK_BYTES)) as stream,
+    ):
+        yield from stream
+
+
+def _csv_options(table: TableFile, names: list[str], block_size: int | None = None) -> dict[str, Any]:
+    return {
+        "read_options": pyarrow.csv.ReadOptions(
+            column_names=_unique(table.columns, names),
+            skip_rows=table.header_line,
+            block_size=block_size,
+            use_threads=block_size is None,
+        ),
+        "parse_options": pyarrow.csv.ParseOptions(delimiter=table.delimiter),
+        "convert_options": pyarrow.csv.ConvertOptions(
+            include_columns=names,
+            column_types=dict.fromkeys(names, pa.float64()),
+            null_values=[""],
+            decimal_point=table.decimal_point,
+        ),
+    }
+
+
+@contextmanager
+def _csv_blame(table: TableFile, names: list[str]) -> Iterator[None]:
+    """Turn what pyarrow says of a CSV file into InvalidInput with line, column and value."""
     try:
-        return pyarrow.csv.read_csv(
-            table.path,
-            read_options=pyarrow.csv.ReadOptions(
-                column_names=_unique(table.columns, names), skip_rows=table.header_line
-            ),
-            parse_options=pyarrow.csv.ParseOptions(delimiter=table.delimiter),
-            convert_options=pyarrow.csv.ConvertOptions(
-                include_columns=names, column_types=types, null_values=[""], decimal_point=table.decimal_point
-            ),
-        )
+        yield
     except pa.ArrowInvalid as error:
         _blame_cell(table, names)
         raise table.error(f"cannot be read as CSV ({_first_line(error)})") from error
@@ -178,19 +237,43 @@ def _read_csv(table: TableFile, names: list[str]) -> pa.Table:
 
 
 def _read_parquet(table: TableFile, names: list[str]) -> pa.Table:
-    try:
+    with _parquet_blame(table):
         content = pyarrow.parquet.read_table(table.path, columns=names)
-    except (OSError, pa.ArrowException) as error:
-        raise table.error(f"cannot be read as Parquet ({_first_line(error)})") from error
-    for name in names:
-        kind = content.schema.field(name).type
-        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
-            raise table.error(f"column `{name}` holds {kind}, must hold numbers")
+    _require_numbers(table, content.schema, names)
     return content
 
 
-def _as_float(column: pa.ChunkedArray) -> NDArray[np.float64]:
-    values: NDArray[np.float64] = column.cast(pa.float64(), safe=False).to_numpy()
+def _stream_parquet(table: TableFile, names: list[str]) -> Iterator[pa.RecordBatch]:
+    with (
+        _parquet_blame(table),
+        pyarrow.parquet.ParquetFile(table.path, buffer_size=_BLOCK_BYTES, pre_buffer=False) as file,
+    ):
+        _require_numbers(table, file.schema_arrow, names)
+        yield from file.iter_batches(batch_size=_BLOCK_ROWS, columns=names, use_threads=False)
+
+
+@contextmanager
+def _parquet_blame(table: TableFile) -> Iterator[None]:
+    try:
+        yield
+    except (OSError, pa.ArrowException) as error:
+        raise table.error(f"cannot be read as Parquet ({_first_line(error)})") from error
+
+
+def _require_numbers(table: TableFile, schema: pa.Schema, names: list[str]) -> None:
+    for name in names:
+        kind = schema.field(name).type
+        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_timestamp(kind)):
+            raise table.error(f"column `{name}` holds {kind}, must hold numbers")
+
+
+def _as_float(column: pa.ChunkedArray | pa.Array) -> NDArray[np.float64]:
+    if pa.types.is_timestamp(column.type):  # seconds, whatever the file's unit
+        column = column.cast(pa.timestamp("ns", column.type.tz), safe=False).cast(pa.int64())
+        nanoseconds: NDArray[np.int64] = column.to_numpy(**_COPY if isinstance(column, pa.Array) else {})
+        return nanoseconds / 1e9
+    column = column.cast(pa.float64(), safe=False)
+    values: NDArray[np.float64] = column.to_numpy(**_COPY if isinstance(column, pa.Array) else {})
     return values
 
 
@@ -254,6 +337,9 @@ def _is_number(cell: str) -> bool:
         return not math.isnan(float(cell)) or cell.strip().lower() == "nan"
     except ValueError:
         return False
+
+
+_COPY = {"zero_copy_only": False}
 
 
 def _first_line(error: BaseException) -> str:

@@ -160,7 +160,7 @@ BAD_ARMS = {
         "name: a\njoints: [{name: a, type: revolute}]\nencoder: {counts_per_revolution: [1, 2]}\n",
         ["2 values", "1 joints"],
     ),
-    "URDF": ('<?xml version="1.0"?>\n<robot name="two"></robot>\n', ["URDF", "not read yet", "arm.yaml"]),
+    "URDF": ('<?xml version="1.0"?>\n<robot name="two"></robot>\n', ["no <link>", "URDF"]),
 }
 
 

@@ -76,7 +76,7 @@ def test_check_answers_programs_in_json(still_log, capsys):
 
 
 def test_an_interrupt_ends_with_status_130(still_log, monkeypatch, capsys):
-    def interrupt(_):
+    def interrupt(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(check, "load_arm", interrupt)
@@ -85,7 +85,7 @@ def test_an_interrupt_ends_with_status_130(still_log, monkeypatch, capsys):
 
 
 def test_a_fault_of_the_program_asks_to_be_reported_and_shows_where_only_on_request(still_log, monkeypatch, capsys):
-    def fail(_):
+    def fail(*_, **__):
         raise ZeroDivisionError("by nothing")
 
     monkeypatch.setattr(check, "load_arm", fail)

@@ -77,11 +77,22 @@ def test_links_between_pages_lead_somewhere() -> None:
 def test_the_files_in_the_recording_format_page_can_be_read(tmp_path: Path) -> None:
     pages = {}
     for block in blocks("docs/recording-format.md", "yaml"):
-        name = "arm" if "joints:" in block else "sensor" if "bias_std:" in block else "columns"
+        name = (
+            "arm"
+            if "joints:" in block
+            else "lines"
+            if "lines:" in block
+            else "sensor"
+            if "bias_std:" in block
+            else "columns"
+        )
         pages[name] = tmp_path / f"{name}.yaml"
         pages[name].write_text(block, encoding="utf-8")
     arm = load_arm(pages["arm"])
     assert list(arm.joint_names) == ["joint1", "joint2"]
+    joints = pages["arm"].read_text(encoding="utf-8").partition("dh:")[0]
+    pages["arm"].write_text(joints + pages["lines"].read_text(encoding="utf-8"), encoding="utf-8")
+    assert load_arm(pages["arm"]).has_nominal
     assert load_sensor(pages["sensor"]).scale_std == 0.003
     six = tmp_path / "six.yaml"
     joints = "\n".join(f"  - {{name: j{index}, type: revolute}}" for index in range(6))

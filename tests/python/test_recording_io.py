@@ -181,3 +181,60 @@ def test_a_real_robots_own_names_are_recognised(shared_data, tmp_path):
     assert loaded.recording.joints == 6
     assert loaded.recording.sample_rate == pytest.approx(25.0, rel=1e-3)
     assert "sample-rate" in [finding.code for finding in loaded.findings]
+
+
+def test_a_wrist_that_made_whole_turns_is_not_taken_for_degrees(tmp_path, samples):
+    path = tmp_path / "arm.yaml"
+    joints = "joints:\n  - {name: pan, type: revolute, limits: [-6.3, 6.3]}\n  - {name: slide, type: prismatic}\n"
+    path.write_text(f"name: two\n{joints}")
+    log = tmp_path / "log.csv"
+    log.write_text(csv_text({**samples, "q1": samples["q1"] + 4 * np.pi}))
+    assert [finding.code for finding in read_recording(log, load_arm(path)).findings] == ["limits"]
+    log.write_text(csv_text({**samples, "q1": 57.3 * samples["q1"]}))
+    with pytest.raises(circlepoint.InvalidInput, match="degrees"):
+        read_recording(log, load_arm(path))
+
+
+def test_what_the_columns_were_taken_for_is_told_with_the_reason(tmp_path, arm, samples):
+    names = ("t [ms]", "pan", "slide", "ax", "ay", "az")
+    written = dict(zip(names, samples.values(), strict=True))
+    written["t [ms]"] = 1e3 * written["t [ms]"]
+    path = tmp_path / "log.csv"
+    path.write_text(csv_text({**written, "pan": np.degrees(written["pan"])}))
+    columns = tmp_path / "map.yaml"
+    columns.write_text("units: {q1: deg}\n")
+    (file,) = read_recording(path, arm, columns).files
+    told = {each.name: (each.columns, each.unit, each.reason) for each in file.quantities}
+    assert told["time"] == (("t [ms]",), "ms", "written in the column's name")
+    assert told["joints"][:2] == (("pan", "slide"), "deg, SI")
+    assert told["joints"][2] == "stated in the column map"
+    assert "gravity" in told["specific force"][2]
+
+
+def test_two_sensors_are_not_chosen_between(tmp_path, arm, samples):
+    both = {**dict(list(samples.items())[:3])}
+    for place in ("base", "flange"):
+        both |= {f"{place}_a{axis}": samples[f"a{axis}"] for axis in "xyz"}
+    path = tmp_path / "log.csv"
+    path.write_text(csv_text(both))
+    with pytest.raises(circlepoint.InvalidInput, match=r"several accelerometers.*base, flange.*--columns"):
+        read_recording(path, arm)
+    columns = tmp_path / "map.yaml"
+    columns.write_text("a: [flange_ax, flange_ay, flange_az]\n")
+    require_same(read_recording(path, arm, columns).recording, samples)
+
+
+def test_commanded_positions_are_not_taken_for_measured_ones(tmp_path, arm, samples):
+    names = ("t", "target_q_0", "target_q_1", "ax", "ay", "az")
+    path = tmp_path / "log.csv"
+    path.write_text(csv_text(dict(zip(names, samples.values(), strict=True))))
+    with pytest.raises(circlepoint.InvalidInput, match="joint position columns"):
+        read_recording(path, arm)
+
+
+def test_time_of_day_in_parquet_is_seconds(tmp_path, arm, samples):
+    stamps = (1_700_000_000 + samples["t"]) * 1e9
+    table = pa.table({**samples, "t": pa.array(stamps.round().astype(np.int64), pa.timestamp("ns"))})
+    pyarrow.parquet.write_table(table, tmp_path / "log.parquet")
+    recording = read_recording(tmp_path / "log.parquet", arm).recording
+    assert recording.sample_rate == pytest.approx(RATE, rel=1e-6)

@@ -37,6 +37,7 @@ could be estimated is written, complete: false). 2: bad input, nothing written."
 _EXAMPLES = """\
   circlepoint calibrate log.csv --arm arm.yaml --out result
   circlepoint calibrate joints.csv sensor.csv --arm arm.yaml --out result        two files, two clocks
+  circlepoint calibrate log.bag --arm arm.urdf --tip tool0 --out result           a ROS bag, the arm from its URDF
   circlepoint calibrate log.csv --arm arm.yaml --out result --sensor qa700 --method velocity
   circlepoint calibrate log.csv --arm arm.yaml --out result --reference-configuration -1.2,0,0.5,0,0,0
 """
@@ -77,12 +78,19 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     require_writable_folder(options.out)
-    arm = load_arm(options.arm)
+    arm = load_arm(options.arm, base=options.base, tip=options.tip)
     _require_reference(options.reference_configuration, arm)
     sensor = None if options.sensor is None else load_sensor(options.sensor)
     with progress(3, quiet=options.json) as begin:
         begin("reading")
-        loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
+        loaded = read_recording(
+            options.logs,
+            arm,
+            options.columns,
+            gravity=options.gravity,
+            joint_topic=options.joint_topic,
+            imu_topic=options.imu_topic,
+        )
         begin("estimating")
         calibration = _estimate(options, loaded, arm, sensor)
         begin("writing")

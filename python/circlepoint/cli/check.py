@@ -26,10 +26,12 @@ _EXAMPLES = """\
   circlepoint check log.csv --arm arm.yaml
   circlepoint check joints.csv sensor.csv --arm arm.yaml          two files, two clocks
   circlepoint check rtde.csv --arm arm.yaml --columns map.yaml    other names and units
+  circlepoint check log.mcap --arm arm.urdf --tip tool0           a ROS 2 bag, the arm from its URDF
   circlepoint check log.csv --arm arm.yaml --json
 """
 
 _WIDTH = 118
+_GAPS_SHOWN = 3
 
 
 def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
@@ -44,8 +46,15 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    arm = load_arm(options.arm)
-    loaded = read_recording(options.logs, arm, options.columns, gravity=options.gravity)
+    arm = load_arm(options.arm, base=options.base, tip=options.tip)
+    loaded = read_recording(
+        options.logs,
+        arm,
+        options.columns,
+        gravity=options.gravity,
+        joint_topic=options.joint_topic,
+        imu_topic=options.imu_topic,
+    )
     result = check_recording(loaded, arm, gravity=options.gravity)
     print(json.dumps(check_document(result), indent=1, allow_nan=False) if options.json else format_check(result))
     return 0 if result.ready else 1
@@ -68,6 +77,7 @@ def check_document(result: LogCheck) -> dict[str, Any]:
         "rest_magnitude": result.rest_magnitude,
         "rest_magnitude_std": result.rest_magnitude_std,
         "rest_noise": result.rest_noise,
+        "largest_force": result.largest_force,
         "gravity": result.gravity,
         "joints": [_joint_document(joint) for joint in result.joints],
         "findings": finding_entries(result.findings),
@@ -77,7 +87,7 @@ def check_document(result: LogCheck) -> dict[str, Any]:
 def format_check(result: LogCheck) -> str:
     """Return the answer on one screen."""
     recording = result.loaded.recording
-    lines = [_file_line(file) for file in result.loaded.files]
+    lines = [line for file in result.loaded.files for line in (_file_line(file), *_column_lines(file))]
     lines += [
         f"clocks      sensor time = {clock.offset:.4f} s + {clock.rate:.6f} x joint time  "
         f"(std {clock.offset_std:.2g} s, {clock.rate_std:.2g})"
@@ -87,10 +97,10 @@ def format_check(result: LogCheck) -> str:
         f"recording   {recording.samples} samples at {recording.sample_rate:.6g} Hz in {len(recording.spans)} "
         f"span{'s' if len(recording.spans) != 1 else ''}, {recording.joints} joints"
     )
-    lines.append(_rest_line(result))
+    lines += [_rest_line(result), _range_line(result)]
     lines += ["", *_joint_table(result.joints), ""]
     lines += _wrapped(_advice(result.joints), "to record")
-    lines += _wrapped([finding.message for finding in result.findings], "findings")
+    lines += _wrapped(_few_gaps([_short(finding.message, result) for finding in result.findings]), "findings")
     missing = [joint.joint.name for joint in result.joints if joint.status == "missing"]
     lines.append(
         f"{len(missing)} of {len(result.joints)} joints cannot be calibrated from this log: {', '.join(missing)}"
@@ -102,14 +112,49 @@ def format_check(result: LogCheck) -> str:
 
 def _file_line(file: LogFile) -> str:
     timeline = file.timeline
+    part = f" {file.part}," if file.part else ""
     what = "joints, sensor" if file.joints and file.sensor else "joints" if file.joints else "sensor"
     missing = sum(gap.missing for gap in timeline.gaps)
     gaps = f"{len(timeline.gaps)} gaps ({missing} samples missing)" if timeline.gaps else "no gaps"
     return (
-        f"{file.path.name:<11} {what}: {file.samples} samples, {timeline.duration:.1f} s, {timeline.sample_rate:.6g} "
-        f"Hz, "
+        f"{file.path.name:<11}{part} {what}: {file.samples} samples, {timeline.duration:.1f} s, "
+        f"{timeline.sample_rate:.6g} Hz, "
         f"jitter {1e3 * timeline.jitter_std:.3g} ms (max {1e3 * timeline.jitter_max:.3g}), {gaps}"
     )
+
+
+def _column_lines(file: LogFile) -> list[str]:
+    """Return what each column was taken for, and why in that unit."""
+    lines = []
+    for quantity in file.quantities:
+        names = quantity.columns
+        listed = ", ".join(names)
+        listed = listed if len(listed) < 40 else f"{names[0]} .. {names[-1]}"
+        lines.append(f"  {quantity.name}: {listed} in {quantity.unit} ({quantity.reason})")
+    return lines
+
+
+def _short(message: str, result: LogCheck) -> str:
+    """Return a finding with its file's name in place of the whole path: one screen is meant."""
+    for file in result.loaded.files:
+        message = message.replace(str(file.path), file.path.name)
+    return message
+
+
+def _few_gaps(messages: list[str]) -> list[str]:
+    """Return the messages with the first gaps only."""
+    gaps = [message for message in messages if ": a gap of " in message]
+    if len(gaps) <= _GAPS_SHOWN:
+        return messages
+    left_out = set(gaps[_GAPS_SHOWN:])
+    more = f"{len(gaps) - _GAPS_SHOWN} more gaps (--json lists all)"
+    return [*(message for message in messages if message not in left_out), more]
+
+
+def _range_line(result: LogCheck) -> str:
+    clipped = sum(finding.code == "clipping" for finding in result.findings)
+    seen = f"{clipped} channel ends clipped (see the findings)" if clipped else "no clipping"
+    return f"range       largest reading of a channel {result.largest_force:.4g} m/s^2, {seen}"
 
 
 def _rest_line(result: LogCheck) -> str:
@@ -124,7 +169,20 @@ def _rest_line(result: LogCheck) -> str:
 
 
 def _joint_table(joints: tuple[JointCheck, ...]) -> list[str]:
-    header = ["joint", "rests", "span", "motions", "travel", "moving", "rate", "gravity", "encoder step", "verdict"]
+    header = [
+        "joint",
+        "tests",
+        "rests",
+        "span",
+        "motions",
+        "travel",
+        "strokes",
+        "moving",
+        "rate",
+        "gravity",
+        "encoder step",
+        "verdict",
+    ]
     rows = [header, *(_joint_row(index, joint) for index, joint in enumerate(joints))]
     widths = [max(len(row[column]) for row in rows) for column in range(len(header))]
     table = []
@@ -144,10 +202,12 @@ def _joint_row(index: int, check: JointCheck) -> list[str]:
         step = f"{1e6 * check.encoder_step:.3g} u{check.joint.unit}"
     return [
         f"{index + 1} {check.joint.name}",
+        str(check.tests),
         str(check.dwells),
         f"{factor * check.dwell_span:.0f} {unit}" if check.dwells else "-",
         str(check.motions),
         f"{factor * check.motion_span:.0f} {unit}" if check.motions else "-",
+        str(check.strokes) if check.motions else "-",
         f"{check.motion_time:.1f} s" if check.motions else "-",
         f"{check.frequency:.2f} Hz" if check.frequency is not None else "-",
         f"{check.gravity_share:.2f} g" if check.gravity_share is not None else "-",
@@ -182,6 +242,11 @@ def _file_document(file: LogFile) -> dict[str, Any]:
     ]
     return {
         "path": str(file.path),
+        "part": file.part,
+        "columns": [
+            {"quantity": each.name, "columns": list(each.columns), "unit": each.unit, "reason": each.reason}
+            for each in file.quantities
+        ],
         "samples": file.samples,
         "joints": file.joints,
         "sensor": file.sensor,
@@ -205,6 +270,7 @@ def _joint_document(check: JointCheck) -> dict[str, Any]:
         "motions": check.motions,
         "motion_span": check.motion_span,
         "motion_time": check.motion_time,
+        "strokes": check.strokes,
         "frequency": check.frequency,
         "encoder_step": check.encoder_step,
         "gravity_share": check.gravity_share,

@@ -41,12 +41,13 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         type=Path,
         metavar="LOG",
-        help="CSV (also .csv.gz) or Parquet: t, q1..qn, ax, ay, az in SI units; several files are one recording; "
-        "joints and sensor "
-        "may be two files with two clocks",
+        help="CSV (also .csv.gz), Parquet, ROS 1 bag or ROS 2 bag: t, q1..qn, ax, ay, az in SI units; several files "
+        "are one recording; joints and sensor may be two files with two clocks",
     )
-    parser.add_argument("--arm", type=Path, required=True, metavar="ARM", help="the arm's description, arm.yaml")
+    add_arm(parser)
     parser.add_argument("--columns", type=Path, metavar="MAP", help="column names and units of the logs, map.yaml")
+    parser.add_argument("--joint-topic", metavar="TOPIC", help="of a bag with several sensor_msgs/JointState")
+    parser.add_argument("--imu-topic", metavar="TOPIC", help="of a bag with several sensor_msgs/Imu")
     parser.add_argument(
         "--gravity",
         type=positive,
@@ -54,6 +55,13 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
         metavar="G",
         help="local gravity, m/s^2 (default: %(default)s)",
     )
+
+
+def add_arm(parser: argparse.ArgumentParser, text: str = "the arm's description, arm.yaml or a URDF") -> None:
+    """Add the arguments that name an arm."""
+    parser.add_argument("--arm", type=Path, required=True, metavar="ARM", help=text)
+    parser.add_argument("--base", metavar="LINK", help="link of a URDF where the arm begins (default: its root)")
+    parser.add_argument("--tip", metavar="LINK", help="link of a URDF that carries the sensor")
 
 
 def positive(text: str) -> float:

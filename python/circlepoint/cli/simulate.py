@@ -9,7 +9,7 @@ from pathlib import Path
 from circlepoint._core import STANDARD_GRAVITY, InvalidInput
 from circlepoint.arm import load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
-from circlepoint.cli.options import Subparsers, add_command, positive, progress
+from circlepoint.cli.options import Subparsers, add_arm, add_command, positive, progress
 
 _TEXT = """\
 Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,
@@ -29,9 +29,7 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         commands, common, "simulate", summary="a recording with ground truth beside it", text=_TEXT, examples=_EXAMPLES
     )
     parser.add_argument("plan", type=Path, metavar="PLAN", help="the tests, plan.yaml")
-    parser.add_argument(
-        "--arm", type=Path, required=True, metavar="ARM", help="the arm's description with its nominal dh, arm.yaml"
-    )
+    add_arm(parser, "the arm's description with its nominal dh or lines, arm.yaml, or a URDF")
     parser.add_argument(
         "--sensor",
         required=True,
@@ -64,9 +62,9 @@ def run(options: argparse.Namespace) -> int:
 
     require_format(options.out)
     require_writable_folder(options.out.parent)
-    arm = load_arm(options.arm)
-    if arm.dh is None:
-        raise InvalidInput(f"{options.arm}: has no `dh`; a simulation needs the arm's nominal parameters")
+    arm = load_arm(options.arm, base=options.base, tip=options.tip)
+    if not arm.has_nominal:
+        raise InvalidInput(f"{options.arm}: has no `dh` or `lines`; a simulation needs the arm's nominal parameters")
     specification = load_sensor(options.sensor)
     plan = load_plan(options.plan, arm.joint_names, [joint.type for joint in arm.joints])
     nominal = nominal_chain(arm, plan.rest)

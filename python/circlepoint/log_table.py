@@ -1,0 +1,194 @@
+"""What a log looks like to its reader: named columns of numbers, and the place of each row for messages.
+
+A file of rows (`circlepoint.tables`), a topic of a bag (`circlepoint.bags`) and arrays in memory are read alike.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from circlepoint._core import InvalidInput
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+    from pathlib import Path
+
+    from circlepoint.findings import Finding
+
+FloatArray = NDArray[np.float64]
+
+MANY_ROWS = 1_500_000
+"""Rows above which a log is thinned out while it is read (`circlepoint.long_logs`)."""
+
+
+class LogTable(Protocol):
+    """Named columns of numbers, one row a sample."""
+
+    @property
+    def path(self) -> Path:
+        """Where it is."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+
+    @property
+    def part(self) -> str:
+        """Which part of the file it is, such as a topic; empty: all."""
+
+    @property
+    def hint(self) -> str:
+        """What else is there; empty, or a clause for messages about what is missing."""
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What opening it has shown."""
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory."""
+
+    def error(self, message: str, row: int | None = None) -> InvalidInput:
+        """Return an InvalidInput about the table, or about one of its rows (0-based)."""
+
+    def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
+        """Return columns (N,) by name; NaN where a cell is empty."""
+
+    def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
+        """Yield the same columns piece by piece, in order."""
+
+
+@dataclass(frozen=True)
+class MemoryTable:
+    """Columns in memory.
+
+    Attributes
+    ----------
+    path : Path
+        The file they came from, or a name for arrays.
+    values : mapping of str to ndarray
+        Columns (N,) by name.
+    row : str
+        What a row is called in messages: ``"row"``, ``"message"``.
+    part : str
+        Which part of the file they are, such as a topic.
+    hint : str
+        What else the file holds.
+    findings : tuple of Finding
+        What taking them out of the file has shown.
+    """
+
+    path: Path
+    values: Mapping[str, FloatArray] = field(repr=False)
+    row: str = "row"
+    part: str = ""
+    hint: str = ""
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory."""
+        return next((values.size for values in self.values.values()), 0) > MANY_ROWS
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return tuple(self.values)
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+        return f"{self.path}{self.part and ', ' + self.part}"
+
+    def error(self, message: str, row: int | None = None) -> InvalidInput:
+        """Return an InvalidInput about the table, or about one of its rows (0-based)."""
+        return InvalidInput(f"{self.label}{'' if row is None else f', {self.row} {row + 1}'}: {message}")
+
+    def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
+        """Return columns (N,) by name."""
+        return {name: self.values[name] for name in names}
+
+    def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
+        """Yield the columns as one piece."""
+        yield self.read(names)
+
+
+@dataclass(frozen=True)
+class SelectedRows:
+    """Some rows of a table: those of one of the two rates that a log of joints and sensor can have."""
+
+    table: LogTable
+    values: Mapping[str, FloatArray] = field(repr=False)
+    rows: NDArray[np.intp] = field(repr=False)
+
+    @property
+    def path(self) -> Path:
+        """Where the table is."""
+        return self.table.path
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return tuple(self.values)
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+        return self.table.label
+
+    @property
+    def part(self) -> str:
+        """Which part of the file the table is."""
+        return self.table.part
+
+    @property
+    def hint(self) -> str:
+        """What else is there."""
+        return self.table.hint
+
+    @property
+    def long(self) -> bool:
+        """Whether the table may be too long for memory: its rows have been read."""
+        return False
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What opening the table has shown."""
+        return self.table.findings
+
+    def error(self, message: str, row: int | None = None) -> InvalidInput:
+        """Return an InvalidInput about the table, or about one of these rows (0-based)."""
+        return self.table.error(message, None if row is None else int(self.rows[row]))
+
+    def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
+        """Return columns (N,) by name."""
+        return {name: self.values[name][self.rows] for name in names}
+
+    def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
+        """Yield the columns as one piece."""
+        yield self.read(names)
+
+
+def require_finite(table: LogTable, name: str, values: FloatArray, first_row: int = 0) -> None:
+    """Raise InvalidInput at the first value that is empty, NaN or infinite; `values` begin at `first_row`."""
+    bad = np.flatnonzero(~np.isfinite(values))
+    if not bad.size:
+        return
+    row = int(bad[0])
+    others = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
+    if np.isinf(values[row]):
+        raise table.error(f"column `{name}` is {values[row]}, must be finite{others}; remove the row", first_row + row)
+    raise table.error(
+        f"column `{name}` is empty or not a number{others}; remove such rows (a gap is handled); rows that hold only "
+        f"joints beside rows that hold only the sensor are two rates in one log, and are taken as such when there are "
+        f"many of both",
+        first_row + row,
+    )
