@@ -34,6 +34,7 @@ PYBIND11_MODULE(_core, m) {
   bind_segmentation(m);
   bind_identification(m);
   bind_whole_arm(m);
+  bind_acquisition(m);
   bind_simulation(m);
   m.attr("__all__") = public_names(m);
 }
