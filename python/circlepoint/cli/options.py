@@ -47,6 +47,11 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--arm", type=Path, required=True, metavar="ARM", help="the arm's description, arm.yaml")
     parser.add_argument("--columns", type=Path, metavar="MAP", help="column names and units of the logs, map.yaml")
+    add_gravity(parser)
+
+
+def add_gravity(parser: argparse.ArgumentParser) -> None:
+    """Add the local gravity."""
     parser.add_argument(
         "--gravity",
         type=positive,
