@@ -19,7 +19,8 @@ void bind_sensor(py::module_& m);
 void bind_recording(py::module_& m);
 void bind_filters(py::module_& m);
 void bind_segmentation(py::module_& m);
-void bind_identification(py::module_& m);
+void bind_regression(py::module_& m);
+void bind_calibration(py::module_& m);
 void bind_simulation(py::module_& m);
 
 }  // namespace circlepoint::bindings
