@@ -10,7 +10,9 @@
       rows: [{a: 0.0, alpha: 1.5708, d: 0.0, theta: 0.0}]
     encoder: {counts_per_revolution: 400000} # optional; one value or a list (null: unknown)
 
-Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration are in m, its encoder counts per metre.
+Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration are in m. Its encoder is described by
+``encoder: {counts_per_metre: 1000000}``, again one value or a list with null for the others; without it, its entry of
+counts_per_revolution counts per metre.
 """
 
 import math
@@ -29,6 +31,7 @@ _JOINT_TYPES: dict[str, JointType] = {"revolute": "revolute", "prismatic": "pris
 _CONVENTIONS: dict[str, DhConvention] = {"standard": "standard", "modified": "modified"}
 _DH_PARAMETERS = ("a", "alpha", "d", "theta")
 _COUNTS = "counts_per_revolution"
+_COUNTS_PER_METRE = "counts_per_metre"
 _DH_NUMBER = "a finite number (0.0 where it is zero)"
 _LARGEST_LIMIT = 8 * math.pi  # rad: four turns either way; beyond that a limit was written in degrees
 _LONGEST_LINK = 20.0  # m: beyond that a length was written in millimetres
@@ -139,7 +142,7 @@ def load_arm(path: str | Path) -> Arm:
         name=name,
         joints=joints,
         dh=_nominal_dh(fields.fields("dh", ("convention", "rows")), len(joints)) if fields.given("dh") else None,
-        encoder_counts=_encoder_counts(fields.fields("encoder", (_COUNTS,)), len(joints))
+        encoder_counts=_encoder_counts(fields.fields("encoder", (_COUNTS, _COUNTS_PER_METRE)), joints)
         if fields.given("encoder")
         else None,
     )
@@ -226,13 +229,30 @@ def _length(fields: Fields, key: str) -> float:
     return length
 
 
-def _encoder_counts(fields: Fields, joints: int) -> tuple[float | None, ...]:
-    value = fields.value(_COUNTS, "a number, or a list with one a joint (null: unknown)")
-    if not isinstance(value, list):
-        return (fields.number(_COUNTS, above=0.0),) * joints
-    if len(value) != joints:
-        fields.fail(_COUNTS, f"has {len(value)} values for {joints} joints; give one, or one a joint")
+def _encoder_counts(fields: Fields, joints: tuple[Joint, ...]) -> tuple[float | None, ...]:
+    """Return each joint's counts: what concerns its own kind, for a prismatic joint per metre where that is given."""
+    if _COUNTS not in fields and _COUNTS_PER_METRE not in fields:
+        fields.value(_COUNTS, f"a number, or a list with one a joint (null: unknown); {_COUNTS_PER_METRE} likewise")
+    per_revolution = _counts(fields, _COUNTS, len(joints))
+    if _COUNTS_PER_METRE not in fields:
+        return per_revolution
+    if all(joint.revolute for joint in joints):
+        fields.fail(_COUNTS_PER_METRE, f"is given, but no joint is prismatic; give {_COUNTS}")
+    per_metre = _counts(fields, _COUNTS_PER_METRE, len(joints))
     return tuple(
-        None if entry is None else fields.checked((_COUNTS, index), entry, above=0.0)
-        for index, entry in enumerate(value)
+        turns if joint.revolute else slides
+        for joint, turns, slides in zip(joints, per_revolution, per_metre, strict=True)
+    )
+
+
+def _counts(fields: Fields, key: str, joints: int) -> tuple[float | None, ...]:
+    if key not in fields:
+        return (None,) * joints
+    value = fields.value(key, "a number, or a list with one a joint (null: unknown)")
+    if not isinstance(value, list):
+        return (fields.number(key, above=0.0),) * joints
+    if len(value) != joints:
+        fields.fail(key, f"has {len(value)} values for {joints} joints; give one, or one a joint")
+    return tuple(
+        None if entry is None else fields.checked((key, index), entry, above=0.0) for index, entry in enumerate(value)
     )

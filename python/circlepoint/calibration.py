@@ -29,7 +29,7 @@ UNSPECIFIED_SENSOR = "generic"
 
 @dataclass(frozen=True)
 class NamedFit:
-    """One joint test's fit under its joint's name; signals in s, rad and m/s^2 (see `circlepoint.TestFit`)."""
+    """One joint test's fit under its joint's name; signals in s, rad or m, and m/s^2 (see `circlepoint.TestFit`)."""
 
     joint_name: str
     result: circlepoint.TestFit
@@ -46,7 +46,7 @@ class NamedFit:
 
     @property
     def position(self) -> NDArray[np.float64]:
-        """(M,) rad."""
+        """(M,) rad or m."""
         return self.result.position
 
     @property
@@ -61,7 +61,7 @@ class NamedFit:
 
     @property
     def dwell_positions(self) -> NDArray[np.float64]:
-        """(K,) rad."""
+        """(K,) rad or m."""
         return self.result.dwell_positions
 
     @property
@@ -156,7 +156,7 @@ def calibrate(
         For a recording that does not fit the arm, or options out of range.
     """
     options = _options(arm, method, sensor, gravity, reference_configuration)
-    segmentation = circlepoint.segment(recording)
+    segmentation = circlepoint.segment(recording, circlepoint.SegmentationOptions(joint_types=joint_types(arm)))
     joints = circlepoint.calibrate_joints(recording, segmentation, options)
     chain = joints.chain() if joints.complete() else None
     dh = _to_dh(chain, arm)
