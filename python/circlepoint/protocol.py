@@ -191,7 +191,7 @@ def _test(test: Fields, names: list[str], prismatic: list[bool]) -> Iterator[Pie
 
 
 def _tests_of_all(tests: Sequence[tuple[_Motion, Fields]], prismatic: list[bool]) -> Iterator[Piece]:
-    """Yield each joint's motions; rests of a prismatic joint, which show nothing of it, only where they are asked for."""
+    """Yield each joint's motions; rests of a prismatic joint show nothing of it and are left out unless asked for."""
     for index, slides in enumerate(prismatic):
         for motion, fields in tests:
             if motion is not _static or not slides or "span_m" in fields:
