@@ -299,7 +299,8 @@ void bind_chain(py::module_& m) {
              << ", parallel=" << (pair.parallel ? "True" : "False") << ")";
         return text.str();
       });
-  m.def("align_lines", &align_lines, py::arg("target"), py::arg("source"), py::arg("length") = 0.5, release_gil(), R"(
+  m.def("align_lines", &align_lines, py::arg("target"), py::arg("source"), py::arg("length") = 0.5,
+        py::arg("types") = std::vector<JointType>{}, release_gil(), R"(
 The rigid transform that brings lines closest to their counterparts, such as nominal axes to calibrated ones.
 
 Parameters
@@ -308,6 +309,8 @@ target, source : list of Line
     In correspondence, m.
 length : float
     m; weighs a radian of direction against a metre of position.
+types : list of JointType
+    One a line, or none: all revolute. Of a prismatic joint's line only the direction counts.
 
 Returns
 -------
@@ -317,7 +320,7 @@ Returns
 Raises
 ------
 InvalidInput
-    Different numbers of lines, or none.
+    Different numbers of lines or types, or no lines.
 )");
   bind_dh_convention<StandardDhChain>(m, "StandardDhChain", "StandardDhConversion", R"(A serial chain in the standard DH convention.
 

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "bindings.hpp"
 #include "circlepoint/conditioning/segmentation.hpp"
 #include "circlepoint/conditioning/static_intervals.hpp"
@@ -19,17 +21,17 @@ float
     1/512 of a revolution or the joint never moves.
 )";
 
-constexpr const char* rest_band_doc = R"(The band a joint at rest stays in for `rest_window` seconds.
+constexpr const char* rest_band_doc = R"(The band a revolute joint at rest stays in for `rest_window` seconds.
 
 Parameters
 ----------
-encoder_step : float, rad or m
+encoder_step : float, rad
 options : StaticIntervalOptions
 
 Returns
 -------
 float
-    The larger of 1.5 encoder steps and `min_velocity * rest_window`, rad or m.
+    The larger of 1.5 encoder steps and `min_velocity * rest_window`, rad.
 )";
 
 constexpr const char* joint_rests_doc = R"(For each joint, the intervals in which it rests.
@@ -98,19 +100,24 @@ void bind_static_intervals(py::module_& m) {
   const StaticIntervalOptions options;
   py::class_<StaticIntervalOptions>(m, "StaticIntervalOptions", "What counts as standing still.")
       .def(py::init([](double min_dwell, double settle, double min_velocity, double rest_window, double quiet_ratio,
-                       double quiet_std) {
-             return StaticIntervalOptions{min_dwell, settle, min_velocity, rest_window, quiet_ratio, quiet_std};
+                       double quiet_std, std::vector<JointType> joint_types, double metres_per_radian) {
+             return StaticIntervalOptions{min_dwell,   settle,    min_velocity,           rest_window,
+                                          quiet_ratio, quiet_std, std::move(joint_types), metres_per_radian};
            }),
            py::kw_only(), py::arg("min_dwell") = options.min_dwell, py::arg("settle") = options.settle,
            py::arg("min_velocity") = options.min_velocity, py::arg("rest_window") = options.rest_window,
-           py::arg("quiet_ratio") = options.quiet_ratio, py::arg("quiet_std") = options.quiet_std)
+           py::arg("quiet_ratio") = options.quiet_ratio, py::arg("quiet_std") = options.quiet_std,
+           py::arg("joint_types") = options.joint_types, py::arg("metres_per_radian") = options.metres_per_radian)
       .def_readonly("min_dwell", &StaticIntervalOptions::min_dwell, "s, shortest static interval")
       .def_readonly("settle", &StaticIntervalOptions::settle, "s, dropped after the joints came to rest")
-      .def_readonly("min_velocity", &StaticIntervalOptions::min_velocity, "rad/s or m/s: what is slower is at rest")
+      .def_readonly("min_velocity", &StaticIntervalOptions::min_velocity, "rad/s: what is slower is at rest")
       .def_readonly("rest_window", &StaticIntervalOptions::rest_window, "s, shortest rest of a joint")
       .def_readonly("quiet_ratio", &StaticIntervalOptions::quiet_ratio,
                     "quiet: the sensor's scatter is within this multiple of the quietest rests' scatter")
-      .def_readonly("quiet_std", &StaticIntervalOptions::quiet_std, "or below this, m/s^2 rms over the channels");
+      .def_readonly("quiet_std", &StaticIntervalOptions::quiet_std, "or below this, m/s^2 rms over the channels")
+      .def_readonly("joint_types", &StaticIntervalOptions::joint_types, "base to tip; empty: all revolute")
+      .def_readonly("metres_per_radian", &StaticIntervalOptions::metres_per_radian,
+                    "m: a prismatic joint's travel that counts as a radian of every threshold");
 
   m.attr("max_encoder_step") = max_encoder_step;
   m.def("encoder_step", &encoder_step, py::arg("positions").noconvert(), release_gil(), encoder_step_doc);
@@ -165,8 +172,10 @@ void bind_segmentation(py::module_& m) {
                                                          "What counts as a dwell, a single-joint motion and a test.")
       .def(py::init([](double min_dwell, double settle, double min_velocity, double rest_window, double quiet_ratio,
                        double quiet_std, double others_ratio, double others_travel, double min_travel,
-                       double min_partial, double configuration_tolerance) {
-             return SegmentationOptions{{min_dwell, settle, min_velocity, rest_window, quiet_ratio, quiet_std},
+                       double min_partial, double configuration_tolerance, std::vector<JointType> joint_types,
+                       double metres_per_radian) {
+             return SegmentationOptions{{min_dwell, settle, min_velocity, rest_window, quiet_ratio, quiet_std,
+                                         std::move(joint_types), metres_per_radian},
                                         others_ratio, others_travel, min_travel, min_partial,
                                         configuration_tolerance};
            }),
@@ -175,16 +184,17 @@ void bind_segmentation(py::module_& m) {
            py::arg("quiet_ratio") = options.quiet_ratio, py::arg("quiet_std") = options.quiet_std,
            py::arg("others_ratio") = options.others_ratio, py::arg("others_travel") = options.others_travel,
            py::arg("min_travel") = options.min_travel, py::arg("min_partial") = options.min_partial,
-           py::arg("configuration_tolerance") = options.configuration_tolerance)
+           py::arg("configuration_tolerance") = options.configuration_tolerance,
+           py::arg("joint_types") = options.joint_types, py::arg("metres_per_radian") = options.metres_per_radian)
       .def_readonly("others_ratio", &SegmentationOptions::others_ratio,
                     "others may move at this fraction of the moving joint's speed and travel")
       .def_readonly("others_travel", &SegmentationOptions::others_travel,
-                    "rad or m: others may not yield more than this over a motion")
-      .def_readonly("min_travel", &SegmentationOptions::min_travel, "rad or m: shorter motions are ignored")
+                    "rad: others may not yield more than this over a motion")
+      .def_readonly("min_travel", &SegmentationOptions::min_travel, "rad: shorter motions are ignored")
       .def_readonly("min_partial", &SegmentationOptions::min_partial,
                     "s: shortest motion that does not run from rest to rest")
       .def_readonly("configuration_tolerance", &SegmentationOptions::configuration_tolerance,
-                    "rad or m: the same test, if every other joint is within this");
+                    "rad: the same test, if every other joint is within this");
 
   m.def("segment", &segment, py::arg("recording"), py::arg_v("options", options, "SegmentationOptions()"),
         release_gil(), segment_doc);

@@ -92,7 +92,7 @@ noise_std : float, m/s^2
 range : float, m/s^2
     Readings clip at plus and minus this; 0 for no clipping.
 encoder_counts_per_revolution : (n,) array_like
-    0 for an exact encoder; empty for all exact. Prismatic joints are always exact.
+    Per metre for a prismatic joint; 0 for an exact encoder; empty for all exact.
 bias_drift : (3,) array_like, m/s^2
     Reached linearly from zero over the recording.
 compliance : (n,) array_like, rad per m^2/s^2 (prismatic: m per m/s^2)

@@ -32,7 +32,8 @@ PYBIND11_MODULE(_core, m) {
   bind_recording(m);
   bind_filters(m);
   bind_segmentation(m);
-  bind_identification(m);
+  bind_regression(m);
+  bind_calibration(m);
   bind_whole_arm(m);
   bind_acquisition(m);
   bind_simulation(m);

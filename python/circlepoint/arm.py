@@ -15,7 +15,9 @@
 
 A URDF is read instead where one is given (`circlepoint.urdf`).
 
-Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration are in m, its encoder counts per metre.
+Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration are in m. Its encoder is described by
+``encoder: {counts_per_metre: 1000000}``, again one value or a list with null for the others; without it, its entry of
+counts_per_revolution counts per metre.
 """
 
 import math
@@ -35,6 +37,7 @@ _CONVENTIONS: dict[str, DhConvention] = {"standard": "standard", "modified": "mo
 _DH_PARAMETERS = ("a", "alpha", "d", "theta")
 _COUNTS = "counts_per_revolution"
 _LINE_FIELDS = ("reference_configuration", "rows")
+_COUNTS_PER_METRE = "counts_per_metre"
 _DH_NUMBER = "a finite number (0.0 where it is zero)"
 LARGEST_LIMIT = 8 * math.pi
 """rad: four turns either way; beyond that a limit was written in degrees."""
@@ -180,7 +183,7 @@ def load_arm(path: str | Path, *, base: str | None = None, tip: str | None = Non
         name=name,
         joints=joints,
         dh=_nominal_dh(fields.fields("dh", ("convention", "rows")), len(joints)) if fields.given("dh") else None,
-        encoder_counts=_encoder_counts(fields.fields("encoder", (_COUNTS,)), len(joints))
+        encoder_counts=_encoder_counts(fields.fields("encoder", (_COUNTS, _COUNTS_PER_METRE)), joints)
         if fields.given("encoder")
         else None,
         lines=_nominal_lines(fields.fields("lines", _LINE_FIELDS), len(joints)) if fields.given("lines") else None,
@@ -293,13 +296,30 @@ def _vector(fields: Fields, key: str, count: int) -> tuple[float, ...]:
     return tuple(fields.checked((key, index), entry) for index, entry in enumerate(value))
 
 
-def _encoder_counts(fields: Fields, joints: int) -> tuple[float | None, ...]:
-    value = fields.value(_COUNTS, "a number, or a list with one a joint (null: unknown)")
-    if not isinstance(value, list):
-        return (fields.number(_COUNTS, above=0.0),) * joints
-    if len(value) != joints:
-        fields.fail(_COUNTS, f"has {len(value)} values for {joints} joints; give one, or one a joint")
+def _encoder_counts(fields: Fields, joints: tuple[Joint, ...]) -> tuple[float | None, ...]:
+    """Return each joint's counts: what concerns its own kind, for a prismatic joint per metre where that is given."""
+    if _COUNTS not in fields and _COUNTS_PER_METRE not in fields:
+        fields.value(_COUNTS, f"a number, or a list with one a joint (null: unknown); {_COUNTS_PER_METRE} likewise")
+    per_revolution = _counts(fields, _COUNTS, len(joints))
+    if _COUNTS_PER_METRE not in fields:
+        return per_revolution
+    if all(joint.revolute for joint in joints):
+        fields.fail(_COUNTS_PER_METRE, f"is given, but no joint is prismatic; give {_COUNTS}")
+    per_metre = _counts(fields, _COUNTS_PER_METRE, len(joints))
     return tuple(
-        None if entry is None else fields.checked((_COUNTS, index), entry, above=0.0)
-        for index, entry in enumerate(value)
+        turns if joint.revolute else slides
+        for joint, turns, slides in zip(joints, per_revolution, per_metre, strict=True)
+    )
+
+
+def _counts(fields: Fields, key: str, joints: int) -> tuple[float | None, ...]:
+    if key not in fields:
+        return (None,) * joints
+    value = fields.value(key, "a number, or a list with one a joint (null: unknown)")
+    if not isinstance(value, list):
+        return (fields.number(key, above=0.0),) * joints
+    if len(value) != joints:
+        fields.fail(key, f"has {len(value)} values for {joints} joints; give one, or one a joint")
+    return tuple(
+        None if entry is None else fields.checked((key, index), entry, above=0.0) for index, entry in enumerate(value)
     )

@@ -34,7 +34,7 @@ CLOCK_RATE_STD = 1e-3
 
 @dataclass(frozen=True)
 class NamedFit:
-    """One joint test's fit under its joint's name; signals in s, rad and m/s^2 (see `circlepoint.TestFit`)."""
+    """One joint test's fit under its joint's name; signals in s, rad or m, and m/s^2 (see `circlepoint.TestFit`)."""
 
     joint_name: str
     result: circlepoint.TestFit
@@ -51,7 +51,7 @@ class NamedFit:
 
     @property
     def position(self) -> NDArray[np.float64]:
-        """(M,) rad."""
+        """(M,) rad or m."""
         return self.result.position
 
     @property
@@ -66,7 +66,7 @@ class NamedFit:
 
     @property
     def dwell_positions(self) -> NDArray[np.float64]:
-        """(K,) rad."""
+        """(K,) rad or m."""
         return self.result.dwell_positions
 
     @property
@@ -164,7 +164,7 @@ def calibrate(
     InvalidInput
         For a recording that does not fit the arm, or options out of range.
     """
-    segmentation = circlepoint.segment(recording)
+    segmentation = circlepoint.segment(recording, circlepoint.SegmentationOptions(joint_types=joint_types(arm)))
     whole_arm = None
     if method == "whole-arm":
         whole_arm = circlepoint.calibrate_whole_arm(

@@ -14,6 +14,7 @@ import numpy as np
 import circlepoint
 from circlepoint._core import STANDARD_GRAVITY
 from circlepoint.findings import Finding
+from circlepoint.nominal import joint_types
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,10 +26,12 @@ if TYPE_CHECKING:
 
 MIN_DWELLS = 4
 """Rests a joint's direction is well seen with."""
-MIN_DWELL_SPAN = {"revolute": 0.5, "prismatic": 0.1}
-"""rad or m: the range those rests should cover."""
+MIN_DWELL_SPAN = 0.5
+"""rad: the range those rests should cover."""
 MIN_MOTION_SPAN = {"revolute": 0.2, "prismatic": 0.05}
 """rad or m: the travel a motion should have."""
+MIN_SLIDING_ACCELERATION = 0.2
+"""m/s^2: the peak acceleration a sliding joint's motion should have; it alone shows the direction."""
 GRAVITY_TOLERANCE = 0.05
 """Relative deviation of what the sensor reads at rest that is worth a word."""
 MIN_GRAVITY_SHARE = 0.1
@@ -139,7 +142,8 @@ def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STAND
     LogCheck
         Rates, rests, tests per joint and what is missing.
     """
-    segmentation = circlepoint.segment(loaded.recording)
+    options = circlepoint.SegmentationOptions(joint_types=joint_types(arm))
+    segmentation = circlepoint.segment(loaded.recording, options)
     forces = np.array([dwell.specific_force for dwell in segmentation.dwells]).reshape(-1, 3)
     noise = np.array([dwell.specific_force_std for dwell in segmentation.dwells])
     magnitudes = np.linalg.norm(forces, axis=1)
@@ -180,9 +184,12 @@ def _check_joint(
     motion_span = max((test.motion_span for test in tests), default=0.0)
     dwells = max((len(test.dwells) for test in tests), default=0)
     share = _gravity_share(segmentation, tests, index, gravity) if joint.revolute else None
-    status, advice = _judge(
-        joint, dwells=dwells, dwell_span=dwell_span, motions=len(motions), motion_span=motion_span, share=share
-    )
+    if joint.revolute:
+        status, advice = _judge(
+            joint, dwells=dwells, dwell_span=dwell_span, motions=len(motions), motion_span=motion_span, share=share
+        )
+    else:
+        status, advice = _judge_sliding(joint, motions)
     return JointCheck(
         joint=joint,
         tests=len(tests),
@@ -204,7 +211,7 @@ def _judge(
     joint: Joint, *, dwells: int, dwell_span: float, motions: int, motion_span: float, share: float | None
 ) -> tuple[JointStatus, str]:
     """Return the verdict on one joint, and what to record next."""
-    rests_over, strokes_over = 3 * MIN_DWELL_SPAN[joint.type], 3 * MIN_MOTION_SPAN[joint.type]
+    rests_over, strokes_over = 3 * MIN_DWELL_SPAN, 3 * MIN_MOTION_SPAN[joint.type]
     rests = f"let it rest at {MIN_DWELLS} or more positions over {_travel(joint, rests_over)} or more, 1 s each"
     strokes = f"move it alone to and fro over {_travel(joint, strokes_over)} or more, briskly, for 5 s or more"
     if motions == 0 and dwells < 2:
@@ -213,7 +220,7 @@ def _judge(
         return "missing", f"rests only, and they do not show where the axis is: {strokes}"
     if motion_span < MIN_MOTION_SPAN[joint.type]:
         return "weak", f"its motions are short ({_travel(joint, motion_span)}): {strokes}"
-    if dwells < MIN_DWELLS or dwell_span < MIN_DWELL_SPAN[joint.type]:
+    if dwells < MIN_DWELLS or dwell_span < MIN_DWELL_SPAN:
         return "weak", f"few rests ({dwells} over {_travel(joint, dwell_span)}): {rests}"
     if share is not None and share < MIN_GRAVITY_SHARE:
         return "weak", (
@@ -221,6 +228,22 @@ def _judge(
             f"brisker motions, and a "
             "precise sensor, matter here"
         )
+    return "good", ""
+
+
+def _judge_sliding(joint: Joint, motions: Sequence[circlepoint.SingleJointMotion]) -> tuple[JointStatus, str]:
+    """Return the verdict on one prismatic joint: rests show nothing of it, its acceleration shows all."""
+    strokes_over = 3 * MIN_MOTION_SPAN[joint.type]
+    strokes = f"move it alone to and fro over {_travel(joint, strokes_over)} or more, briskly (0.5 Hz), for 5 s or more"
+    if not motions:
+        return "missing", f"no motion of it alone: with the others still, {strokes}"
+    span = max(motion.travel for motion in motions)
+    if span < MIN_MOTION_SPAN[joint.type]:
+        return "weak", f"its motions are short ({_travel(joint, span)}): {strokes}"
+    # Of a sinusoid of this speed and travel.
+    acceleration = max(2 * motion.peak_velocity**2 / motion.travel for motion in motions)
+    if acceleration < MIN_SLIDING_ACCELERATION:
+        return "weak", f"its motions are slow (about {acceleration:.2g} m/s^2): {strokes}"
     return "good", ""
 
 

@@ -28,15 +28,16 @@ from circlepoint.acquisition import Acquisition, read_acquisition
 from circlepoint.yaml_io import Fields, describe, load_fields
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
+    _Motion = Callable[[Fields, int, list[bool]], SteppedSweep | RaisedCosine]
     Piece = Dwell | SteppedSweep | RaisedCosine | MultiJointMotion
 
 PAPER_PLAN = Path(__file__).parent / "plans" / "paper.yaml"
 
-_PLAN = ("name", "rate_hz", "rest_deg", "rest", "pause", "tests", "acquisition")
+_PLAN = ("name", "rate_hz", "rest_deg", "rest_m", "rest", "pause", "tests", "acquisition")
 _TEST = ("joint", "static", "dynamic", "free")
 _STATIC = ("span_deg", "span_m", "steps", "dwell", "move", "return")
 _DYNAMIC = ("span_deg", "span_m", "frequency_hz", "duration")
@@ -90,10 +91,12 @@ def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequenc
     Parameters
     ----------
     path
-        YAML file with ``rate_hz``, ``rest_deg`` (or ``rest`` in rad and m), optional ``name``, ``pause`` (s) and
-        ``acquisition`` (see `circlepoint.acquisition`), and ``tests``: a list of ``{joint: NAME | all, static: {...},
-        dynamic: {...}}`` and ``{free: {...}}``. Ranges are ``span_deg`` and ``amplitude_deg`` for revolute joints,
-        ``span_m`` and ``amplitude_m`` for prismatic ones.
+        YAML file with ``rate_hz``, ``rest_deg`` and for prismatic joints ``rest_m`` (or ``rest``, a list in rad and
+        m), optional ``name``, ``pause`` (s) and ``acquisition`` (see
+        `circlepoint.acquisition`), and ``tests``: a list of ``{joint: NAME | all, static: {...}, dynamic:
+        {...}}`` and ``{free: {...}}``. Ranges are ``span_deg`` and ``amplitude_deg`` for revolute joints, ``span_m``
+        and ``amplitude_m`` for prismatic ones. A static test of ``all`` joints without ``span_m`` leaves out the
+        prismatic ones, of which rests show nothing.
     joint_names
         The arm's joints, base to tip.
     joint_types
@@ -131,9 +134,9 @@ def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequenc
     return plan
 
 
-def paper_plan(joint_names: Sequence[str]) -> Plan:
-    """Return the paper's protocol for an arm of revolute joints: per joint a stepped sweep, then eq. (11)."""
-    return load_plan(PAPER_PLAN, joint_names)
+def paper_plan(joint_names: Sequence[str], joint_types: Sequence[str] | None = None) -> Plan:
+    """Return the paper's protocol: per joint a stepped sweep (revolute joints only), then eq. (11)."""
+    return load_plan(PAPER_PLAN, joint_names, joint_types)
 
 
 def _require_feasible(plan: Plan, path: Path) -> None:
@@ -155,7 +158,14 @@ def _rest(fields: Fields, prismatic: list[bool]) -> NDArray[np.float64]:
     if isinstance(value, list) and len(value) != len(prismatic):
         fields.fail(key, f"is {describe(value)}, must be {need}")
     if key == "rest_deg" and any(prismatic):
-        fields.fail(key, f"is {describe(value)}, but the arm has prismatic joints: give rest, in rad and m")
+        if isinstance(value, list) or "rest_m" not in fields:
+            fields.fail(
+                key,
+                f"is {describe(value)}, but the arm has prismatic joints: give one number and rest_m beside it, or "
+                "rest, in rad and m",
+            )
+        turned, slid = math.radians(fields.checked((key,), value)), fields.number("rest_m")
+        return np.array([slid if slides else turned for slides in prismatic])
     if isinstance(value, list):
         rest = np.array([fields.checked((key, index), entry) for index, entry in enumerate(value)])
     else:
@@ -181,12 +191,21 @@ def _test(test: Fields, names: list[str], prismatic: list[bool]) -> Iterator[Pie
     ]
     if not tests:
         test.fail("joint", f"is {joint!r}, but nothing is to be done; give static, dynamic or both")
-    chosen = range(len(names)) if joint == "all" else [names.index(joint)]
-    for _, fields in tests:
-        _require_units_used(fields, "span", [prismatic[index] for index in chosen])
-    for index in chosen:
+    if joint == "all":
+        yield from _tests_of_all(tests, prismatic)
+        return
+    for motion, fields in tests:
+        index = names.index(joint)
+        _require_units_used(fields, "span", [prismatic[index]])
+        yield motion(fields, index, prismatic)
+
+
+def _tests_of_all(tests: Sequence[tuple[_Motion, Fields]], prismatic: list[bool]) -> Iterator[Piece]:
+    """Yield each joint's motions; rests of a prismatic joint show nothing of it and are left out unless asked for."""
+    for index, slides in enumerate(prismatic):
         for motion, fields in tests:
-            yield motion(fields, index, prismatic)
+            if motion is not _static or not slides or "span_m" in fields:
+                yield motion(fields, index, prismatic)
 
 
 def _static(fields: Fields, joint: int, prismatic: list[bool]) -> SteppedSweep:

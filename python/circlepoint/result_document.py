@@ -12,11 +12,13 @@ from circlepoint.document import (
     Document,
     dh_row_entry,
     estimate_entry,
+    finding_entries,
     generator_entry,
     joint_entry,
     missing_joint_entry,
     plain,
 )
+from circlepoint.findings import Finding
 from circlepoint.nominal import nominal_chain
 
 if TYPE_CHECKING:
@@ -31,6 +33,8 @@ LINE_COORDINATES = ("d1", "d2", "p1", "p2")
 WORKSPACE_CONFIGURATIONS = 200
 LARGEST_CONDITION = 1e15
 """Beyond it a condition number says no more than that the matrix is singular."""
+LARGEST_ACCELERATION_ERROR = 0.01
+"""By which the acceleration read of a prismatic joint may differ from its encoder's before it is worth a word."""
 
 
 def result_document(
@@ -73,7 +77,7 @@ def result_document(
         "identifiability": _identifiability_entry(arm, joints),
         "fit": _fit_entry(joints),
         "end_point": _end_point_entry(arm, chain, joints),
-        "findings": [],
+        "findings": finding_entries(_acceleration_findings(arm, method, joints)),
     }
 
 
@@ -117,16 +121,18 @@ def _nominal_entries(arm: Arm, joints: circlepoint.JointCalibration) -> dict[int
         return {}
     chain = nominal_chain(arm, joints.reference_configuration)
     lines = {joint: chain.axes[joint].line for joint in found}
-    placement = circlepoint.align_lines(list(found.values()), list(lines.values()))
+    types = [chain.axes[joint].type for joint in found]
+    placement = circlepoint.align_lines(list(found.values()), list(lines.values()), types=types)
     entries = {}
     for joint, line in found.items():
         placed = circlepoint.transform(placement, lines[joint])
         difference = circlepoint.local_coordinates(line, placed)
+        slides = chain.axes[joint].type == circlepoint.JointType.prismatic
         entries[joint] = {
             "direction_sensor": placed.direction,
-            "point_sensor": placed.point,
+            "point_sensor": None if slides else placed.point,
             "direction_difference": float(np.hypot(*difference[:2])),
-            "point_difference": float(np.hypot(*difference[2:])),
+            "point_difference": None if slides else float(np.hypot(*difference[2:])),
         }
     return entries
 
@@ -152,7 +158,33 @@ def _test_entry(test: circlepoint.JointTest, fit: circlepoint.TestFit | None) ->
             "converged": fit.converged,
             "iterations": fit.iterations,
         }
+        if fit.type == circlepoint.JointType.prismatic:
+            entry |= {
+                "acceleration_rms": fit.acceleration_rms,
+                "acceleration_scale": fit.acceleration_scale,
+                "acceleration_scale_std": fit.acceleration_scale_std,
+            }
     return entry
+
+
+def _acceleration_findings(arm: Arm, method: str, joints: circlepoint.JointCalibration) -> list[Finding]:
+    """Compare the acceleration the sensor read with that of a prismatic joint's encoder: only the direction uses it."""
+    findings = []
+    for fit in joints.fits:
+        error = fit.acceleration_scale - 1.0
+        tolerance = max(LARGEST_ACCELERATION_ERROR, 5.0 * fit.acceleration_scale_std)
+        if method == "joint" and fit.type == circlepoint.JointType.prismatic and abs(error) > tolerance:
+            name = arm.joints[fit.joint].name
+            findings.append(
+                Finding(
+                    "acceleration-scale",
+                    f"{name}: the sensor reads {100 * error:+.1f} % off the acceleration its encoder tells (standard "
+                    f"deviation {100 * fit.acceleration_scale_std:.1f} %): its counts per metre, the sensor's scale "
+                    "factor or the clocks are off. Its direction does not depend on it; lengths along it do",
+                    name,
+                )
+            )
+    return findings
 
 
 def _condition(value: float) -> float | None:

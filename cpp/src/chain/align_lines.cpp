@@ -30,11 +30,14 @@ Eigen::Matrix3d fit_rotation(const std::vector<Line>& target, const std::vector<
 }
 
 Eigen::VectorXd residual_of(const std::vector<Line>& target, const std::vector<Line>& source, const RigidTransform& pose,
-                            double length) {
+                            double length, const std::vector<JointType>& types) {
   Eigen::VectorXd residual(4 * static_cast<Index>(target.size()));
   for (std::size_t i = 0; i < target.size(); ++i) {
     Eigen::Vector4d local = local_coordinates(target[i], transform(pose, source[i]));
     local.head<2>() *= length;
+    if (!types.empty() && types[i] == JointType::prismatic) {
+      local.tail<2>().setZero();
+    }
     residual.segment<4>(4 * static_cast<Index>(i)) = local;
   }
   return residual;
@@ -49,10 +52,13 @@ RigidTransform displaced(const RigidTransform& pose, const Eigen::Matrix<double,
 
 }  // namespace
 
-RigidTransform align_lines(const std::vector<Line>& target, const std::vector<Line>& source, double length) {
+RigidTransform align_lines(const std::vector<Line>& target, const std::vector<Line>& source, double length,
+                           const std::vector<JointType>& types) {
   require(!target.empty() && target.size() == source.size(),
           "align_lines got " + std::to_string(target.size()) + " target and " + std::to_string(source.size()) +
               " source lines; give one source line for each target line, at least one");
+  require(types.empty() || types.size() == target.size(), "align_lines got " + std::to_string(types.size()) + " joint types for " +
+                                                              std::to_string(target.size()) + " lines; give one a line, or none");
   RigidTransform pose = RigidTransform::Identity();
   pose.linear() = fit_rotation(target, source);
   constexpr double step = 1e-6;
@@ -61,14 +67,14 @@ RigidTransform align_lines(const std::vector<Line>& target, const std::vector<Li
     Eigen::MatrixXd jacobian(4 * static_cast<Index>(target.size()), 6);
     for (int k = 0; k < 6; ++k) {
       const Eigen::Matrix<double, 6, 1> nudge = step * Eigen::Matrix<double, 6, 1>::Unit(k);
-      jacobian.col(k) = (residual_of(target, source, displaced(pose, nudge), length) -
-                         residual_of(target, source, displaced(pose, -nudge), length)) /
+      jacobian.col(k) = (residual_of(target, source, displaced(pose, nudge), length, types) -
+                         residual_of(target, source, displaced(pose, -nudge), length, types)) /
                         (2.0 * step);
     }
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-7);
     solver.compute(jacobian);
-    const Eigen::Matrix<double, 6, 1> move = -solver.solve(residual_of(target, source, pose, length));
+    const Eigen::Matrix<double, 6, 1> move = -solver.solve(residual_of(target, source, pose, length, types));
     pose = displaced(pose, move);
     if (move.norm() < 1e-12) {
       break;

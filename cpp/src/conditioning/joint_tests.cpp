@@ -7,17 +7,17 @@
 namespace circlepoint {
 namespace {
 
-bool others_agree(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Index joint, double tolerance) {
+bool others_agree(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Index joint, const Eigen::VectorXd& tolerance) {
   for (Index other = 0; other < a.size(); ++other) {
-    if (other != joint && std::abs(a[other] - b[other]) > tolerance) {
+    if (other != joint && std::abs(a[other] - b[other]) > tolerance[other]) {
       return false;
     }
   }
   return true;
 }
 
-/// How far the others strayed between a test's dwells.
-double others_range(const JointTest& test, const std::vector<StaticDwell>& dwells) {
+/// How far the others strayed between a test's dwells, in radians of the thresholds.
+double others_range(const JointTest& test, const std::vector<StaticDwell>& dwells, const Eigen::VectorXd& units) {
   double range = 0.0;
   for (Index other = 0; other < test.configuration.size(); ++other) {
     if (other == test.joint) {
@@ -27,8 +27,9 @@ double others_range(const JointTest& test, const std::vector<StaticDwell>& dwell
       return dwells[static_cast<std::size_t>(a)].joint_positions[other] <
              dwells[static_cast<std::size_t>(b)].joint_positions[other];
     });
-    range = std::max(range, dwells[static_cast<std::size_t>(*high)].joint_positions[other] -
-                                dwells[static_cast<std::size_t>(*low)].joint_positions[other]);
+    range = std::max(range, (dwells[static_cast<std::size_t>(*high)].joint_positions[other] -
+                             dwells[static_cast<std::size_t>(*low)].joint_positions[other]) /
+                                units[other]);
   }
   return range;
 }
@@ -54,8 +55,9 @@ void summarise(JointTest& test, const std::vector<StaticDwell>& dwells, const st
 
 std::vector<JointTest> tests_of(Index joint, const std::vector<StaticDwell>& dwells,
                                 const std::vector<SingleJointMotion>& motions,
-                                const SegmentationOptions& options) {
-  const double tolerance = options.configuration_tolerance;
+                                const Eigen::VectorXd& units, const SegmentationOptions& options) {
+  const Eigen::VectorXd tolerance = options.configuration_tolerance * units;
+  const double shortest = std::max(tolerance[joint], options.min_travel * units[joint]);
   std::vector<JointTest> tests;
   const auto matching = [&](const Eigen::VectorXd& positions) {
     return std::find_if(tests.begin(), tests.end(), [&](const JointTest& test) {
@@ -91,8 +93,9 @@ std::vector<JointTest> tests_of(Index joint, const std::vector<StaticDwell>& dwe
     summarise(test, dwells, motions);
   }
   std::erase_if(tests, [&](const JointTest& test) {
-    return test.motions.empty() && (test.dwell_span < std::max(tolerance, options.min_travel) ||
-                                    others_range(test, dwells) > options.others_ratio * test.dwell_span);
+    return test.motions.empty() && (test.dwell_span < shortest ||
+                                    others_range(test, dwells, units) >
+                                        options.others_ratio * test.dwell_span / units[joint]);
   });
   std::stable_sort(tests.begin(), tests.end(), [](const JointTest& a, const JointTest& b) {
     return std::max(a.dwell_span, a.motion_span) > std::max(b.dwell_span, b.motion_span);
@@ -105,9 +108,10 @@ std::vector<JointTest> tests_of(Index joint, const std::vector<StaticDwell>& dwe
 std::vector<JointTest> joint_tests(const std::vector<StaticDwell>& dwells,
                                    const std::vector<SingleJointMotion>& motions, Index joints,
                                    const SegmentationOptions& options) {
+  const Eigen::VectorXd units = threshold_units(options, joints);
   std::vector<JointTest> tests;
   for (Index joint = 0; joint < joints; ++joint) {
-    const auto of_joint = tests_of(joint, dwells, motions, options);
+    const auto of_joint = tests_of(joint, dwells, motions, units, options);
     tests.insert(tests.end(), of_joint.begin(), of_joint.end());
   }
   return tests;

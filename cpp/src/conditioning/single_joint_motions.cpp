@@ -63,11 +63,13 @@ Eigen::VectorXd neighbourhood_maximum(const Eigen::Ref<const Eigen::VectorXd>& v
 
 class SpanSearch {
  public:
+  /// Positions are taken in radians of the thresholds: prismatic joints divided by their `units`.
   SpanSearch(const Recording& recording, const std::vector<std::vector<IndexRange>>& rests, IndexRange span,
-             const Eigen::VectorXd& bands, const SegmentationOptions& options)
-      : rests_(rests), span_(span), bands_(bands), options_(options), rate_(recording.sample_rate),
+             const Eigen::VectorXd& units, const Eigen::VectorXd& bands, const SegmentationOptions& options)
+      : rests_(rests), span_(span), units_(units), bands_(bands), options_(options), rate_(recording.sample_rate),
         half_(std::max<Index>(1, std::llround(0.5 * options.rest_window * rate_))),
-        positions_(recording.joint_positions.middleRows(span.begin, span.size())), speed_(span.size(), bands.size()) {
+        positions_(recording.joint_positions.middleRows(span.begin, span.size()) * units.cwiseInverse().asDiagonal()),
+        speed_(span.size(), bands.size()) {
     for (Index joint = 0; joint < bands.size(); ++joint) {
       speed_.col(joint) = speed_of(positions_.col(joint), half_, rate_);
     }
@@ -166,9 +168,10 @@ class SpanSearch {
     }
     const IndexRange whole = with_rest(joint, part, motion.from_rest, motion.to_rest);
     motion.samples = {span_.begin + whole.begin, span_.begin + whole.end};
-    motion.travel = range_of(joint, whole);
-    motion.peak_velocity = speed_.col(joint).segment(whole.begin, whole.size()).maxCoeff();
+    motion.travel = units_[joint] * range_of(joint, whole);
+    motion.peak_velocity = units_[joint] * speed_.col(joint).segment(whole.begin, whole.size()).maxCoeff();
     motion.joint_positions = positions_.middleRows(whole.begin, whole.size()).colwise().mean();
+    motion.joint_positions.array() *= units_.array();
     motions.push_back(std::move(motion));
   }
 
@@ -189,6 +192,7 @@ class SpanSearch {
 
   const std::vector<std::vector<IndexRange>>& rests_;
   IndexRange span_;
+  const Eigen::VectorXd& units_;
   const Eigen::VectorXd& bands_;
   const SegmentationOptions& options_;
   double rate_;
@@ -202,13 +206,14 @@ class SpanSearch {
 std::vector<SingleJointMotion> single_joint_motions(const Recording& recording,
                                                     const std::vector<std::vector<IndexRange>>& rests,
                                                     const SegmentationOptions& options) {
+  const Eigen::VectorXd units = threshold_units(options, recording.joints());
   Eigen::VectorXd bands(recording.joints());
   for (Index joint = 0; joint < bands.size(); ++joint) {
-    bands[joint] = rest_band(encoder_step(recording.joint_positions.col(joint)), options);
+    bands[joint] = rest_band(encoder_step(recording.joint_positions.col(joint) / units[joint]), options);
   }
   std::vector<SingleJointMotion> motions;
   for (const IndexRange& span : recording.spans) {
-    SpanSearch(recording, rests, span, bands, options).collect(motions);
+    SpanSearch(recording, rests, span, units, bands, options).collect(motions);
   }
   std::stable_sort(motions.begin(), motions.end(),
                    [](const auto& a, const auto& b) { return a.samples.begin < b.samples.begin; });

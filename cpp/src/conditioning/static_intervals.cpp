@@ -24,6 +24,7 @@ void check(const Recording& recording, const StaticIntervalOptions& options) {
   positive(options.min_dwell, "min_dwell");
   positive(options.min_velocity, "min_velocity");
   positive(options.rest_window, "rest_window");
+  positive(options.metres_per_radian, "metres_per_radian");
   require(options.settle >= 0.0 && options.quiet_ratio >= 0.0 && options.quiet_std >= 0.0,
           "settle, quiet_ratio and quiet_std must not be negative");
   const Index samples = recording.samples();
@@ -225,6 +226,22 @@ double rest_noise(const Recording& recording, const std::vector<IndexRange>& int
 
 }  // namespace
 
+Eigen::VectorXd threshold_units(const StaticIntervalOptions& options, Index joints) {
+  Eigen::VectorXd units = Eigen::VectorXd::Ones(joints);
+  if (options.joint_types.empty()) {
+    return units;
+  }
+  require(static_cast<Index>(options.joint_types.size()) == joints,
+          "joint_types has " + std::to_string(options.joint_types.size()) + " entries for " + std::to_string(joints) +
+              " joints; give one per joint, base to tip, or none");
+  for (Index joint = 0; joint < joints; ++joint) {
+    if (options.joint_types[static_cast<std::size_t>(joint)] == JointType::prismatic) {
+      units[joint] = options.metres_per_radian;
+    }
+  }
+  return units;
+}
+
 double encoder_step(const Eigen::Ref<const Eigen::VectorXd>& positions) {
   constexpr double same = 1e-9;
   double step = std::numeric_limits<double>::infinity();
@@ -248,9 +265,10 @@ double rest_band(double encoder_step, const StaticIntervalOptions& options) {
 std::vector<std::vector<IndexRange>> joint_rests(const Recording& recording, const StaticIntervalOptions& options) {
   check(recording, options);
   const Index window = samples_of(options.rest_window, recording.sample_rate, 3);
+  const Eigen::VectorXd units = threshold_units(options, recording.joints());
   std::vector<std::vector<IndexRange>> rests(static_cast<std::size_t>(recording.joints()));
   for (Index joint = 0; joint < recording.joints(); ++joint) {
-    const Eigen::VectorXd column = recording.joint_positions.col(joint);
+    const Eigen::VectorXd column = recording.joint_positions.col(joint) / units[joint];
     const std::span<const double> positions(column.data(), static_cast<std::size_t>(column.size()));
     const double step = encoder_step(column);
     for (const IndexRange& span : recording.spans) {

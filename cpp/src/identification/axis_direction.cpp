@@ -11,6 +11,7 @@
 
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/geometry/rigid_transform.hpp"
+#include "circlepoint/identification/gravity_model.hpp"
 
 namespace circlepoint {
 namespace {
@@ -148,16 +149,10 @@ AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& spe
 
 Eigen::Vector3d orient_axis(const Eigen::Vector3d& direction, const Eigen::Ref<const Eigen::VectorXd>& angle,
                             const Eigen::Ref<const Samples3>& specific_force) {
-  require(angle.size() == specific_force.rows(), "angle has " + std::to_string(angle.size()) + " entries for " +
-                                                     std::to_string(specific_force.rows()) + " poses; give one per pose");
   // A vector fixed in the base turns by -angle about z in the sensor frame: f(angle) = A + P cos(angle) - z x P sin(angle).
-  // Least squares of f on [1, cos, sin]; the triple product of z, P and the sine coefficient is negative for the right sign.
-  Eigen::Matrix<double, Eigen::Dynamic, 3> regressors(angle.size(), 3);
-  regressors << Eigen::VectorXd::Ones(angle.size()), angle.array().cos().matrix(), angle.array().sin().matrix();
-  const Eigen::Matrix3d coefficients = regressors.colPivHouseholderQr().solve(Eigen::MatrixXd(specific_force));
-  const Eigen::Vector3d cosine = coefficients.row(1);
-  const Eigen::Vector3d sine = coefficients.row(2);
-  return direction.dot(cosine.cross(sine)) <= 0.0 ? direction : Eigen::Vector3d(-direction);
+  // The triple product of z, P and the sine coefficient is negative for the right sign.
+  const GravityModel model = fit_gravity_model(angle, specific_force);
+  return direction.dot(model.cosine.cross(model.sine)) <= 0.0 ? direction : Eigen::Vector3d(-direction);
 }
 
 }  // namespace circlepoint

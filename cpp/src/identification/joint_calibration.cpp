@@ -8,6 +8,7 @@
 
 #include "circlepoint/core/error.hpp"
 #include "joint_work.hpp"
+#include "prismatic_fit.hpp"
 #include "reference_configuration.hpp"
 
 namespace circlepoint {
@@ -88,27 +89,33 @@ std::optional<Index> best_test(const Segmentation& segmentation, Index joint) {
   return best;
 }
 
+// What to record of a joint that has no test of its own.
+std::string missing_test(JointType type, double travel) {
+  const bool slides = type == JointType::prismatic;
+  const std::string remedy = slides ? "move it alone, such as 0.5 Hz over 0.3 m for 6 s"
+                                    : "turn it alone, still poses and a motion such as 0.5 Hz over 150 degrees for 6 s";
+  if (travel < (slides ? 0.002 : 0.01)) {
+    return "it never moves in this recording; " + remedy;
+  }
+  return "it never moves alone in this recording (it travels " +
+         (slides ? one_decimal(1e3 * travel) + " mm" : one_decimal(travel / degree) + " degrees") +
+         ", always together with others or too short); " + remedy;
+}
+
 std::vector<JointWork> gather_all(const Recording& recording, const Segmentation& segmentation, const SensorFromGravity& sensor,
                                   const JointCalibrationOptions& options) {
   const Eigen::VectorXd resolution = encoder_resolution(recording, options);
   std::vector<JointWork> work(static_cast<std::size_t>(recording.joints()));
   for (Index joint = 0; joint < recording.joints(); ++joint) {
     JointWork& mine = work[static_cast<std::size_t>(joint)];
-    if (!options.joint_types.empty() && options.joint_types[static_cast<std::size_t>(joint)] == JointType::prismatic) {
-      mine.reason = "prismatic joints are not estimated by the single-joint methods";
-      continue;
-    }
+    mine.type = options.joint_types.empty() ? JointType::revolute : options.joint_types[static_cast<std::size_t>(joint)];
     const std::optional<Index> test = best_test(segmentation, joint);
     if (test) {
       mine.samples = gather(recording, segmentation, *test, sensor.sensor, resolution, options);
       continue;
     }
     const auto column = recording.joint_positions.col(joint);
-    const double travel = column.maxCoeff() - column.minCoeff();
-    mine.reason = travel < 0.01 ? "it never moves in this recording; turn it alone, still poses and a motion such as 0.5 Hz over 150 degrees for 6 s"
-                                : "it never moves alone in this recording (it travels " + one_decimal(travel / degree) +
-                                      " degrees, always together with others or too short); turn it alone, still poses and a "
-                                      "motion such as 0.5 Hz over 150 degrees for 6 s";
+    mine.reason = missing_test(mine.type, column.maxCoeff() - column.minCoeff());
   }
   return work;
 }
@@ -134,8 +141,13 @@ void fit_all(std::vector<JointWork>& work, const PartialChain* chain, const Sens
       continue;
     }
     try {
-      if (options.method == CalibrationMethod::joint) {
-        const TestNoise noise = mine.fitted ? mine.fitted->noise : TestNoise{};
+      const TestNoise noise = mine.fitted ? mine.fitted->noise : TestNoise{};
+      const bool slides = mine.type == JointType::prismatic;
+      if (options.method == CalibrationMethod::joint && slides) {
+        mine.fitted = fit_prismatic(*mine.samples, chain, noise, options);
+      } else if (slides) {
+        mine.fitted = fit_prismatic_by_paper(*mine.samples, sample_rate, options);
+      } else if (options.method == CalibrationMethod::joint) {
         const JointModelPrior prior = prior_for(sensor, options, noise.static_std);
         mine.fitted = fit_by_regression(*mine.samples, chain, prior, noise, options.filter_order);
       } else {
@@ -149,33 +161,35 @@ void fit_all(std::vector<JointWork>& work, const PartialChain* chain, const Sens
   }
 }
 
-Placed place(std::vector<JointWork>& work, const Eigen::VectorXd& reference, double tolerance) {
+Placed place(std::vector<JointWork>& work, const Eigen::VectorXd& reference, const ArmJoints& arm) {
   Placed placed;
-  placed.lines.resize(work.size());
+  placed.axes.resize(work.size());
+  placed.types = arm.types;
+  std::vector<bool> known(work.size(), false);
   placed.configurations.resize(work.size());
   for (std::size_t i = work.size(); i-- > 0;) {
     if (!work[i].fitted) {
       continue;
     }
     placed.configurations[i] = work[i].fitted->fit.configuration;
-    const std::optional<Index> obstacle = obstacle_between(placed.lines, placed.configurations[i], reference,
-                                                           static_cast<Index>(i), tolerance);
+    const std::optional<Index> obstacle = obstacle_between(known, placed.configurations[i], reference, static_cast<Index>(i), arm);
     if (obstacle) {
       work[i].reason = "its own test stands, but its line cannot be carried to the reference configuration: " +
                        joint_name(*obstacle) + " beyond it stood elsewhere then and is not known; record " +
                        joint_name(*obstacle) + " moving alone";
     } else {
       work[i].reason.clear();
-      placed.lines[i] = work[i].fitted->fit.model.line();
+      placed.axes[i] = ScrewAxis{work[i].type, work[i].fitted->fit.model.line()};
+      known[i] = true;
     }
   }
-  placed.chain = carry_all(placed.lines, placed.configurations, reference);
+  placed.chain = carry_all(placed.axes, placed.configurations, reference);
   return placed;
 }
 
 // Mean of the dwells' readings in base coordinates, over dwells whose unknown joints stand at the reference.
 Eigen::Vector3d mean_up_gravity(const PartialChain& chain, const Segmentation& segmentation, const AccelerometerModel& sensor,
-                                double tolerance) {
+                                const Eigen::VectorXd& tolerance) {
   std::vector<Index> columns;
   const ScrewChain known = chain.known(columns);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -183,7 +197,7 @@ Eigen::Vector3d mean_up_gravity(const PartialChain& chain, const Segmentation& s
   for (const StaticDwell& dwell : segmentation.dwells) {
     bool usable = true;
     for (Index j = 0; j < chain.size(); ++j) {
-      usable = usable && (chain.knows(j) || std::abs(dwell.joint_positions[j] - chain.reference_configuration[j]) < tolerance);
+      usable = usable && (chain.knows(j) || std::abs(dwell.joint_positions[j] - chain.reference_configuration[j]) < tolerance[j]);
     }
     if (usable) {
       const RigidTransform pose = forward_kinematics(known, dwell.joint_positions(columns));
@@ -194,11 +208,15 @@ Eigen::Vector3d mean_up_gravity(const PartialChain& chain, const Segmentation& s
   return weight > 0.0 ? Eigen::Vector3d(sum / weight) : Eigen::Vector3d::Zero();
 }
 
+bool shows_percussion(const JointWork& work) {
+  return work.fitted && work.fitted->fit.percussion_distance_std.minCoeff() > 0.0;
+}
+
 void combine_percussion(const std::vector<JointWork>& work, const JointCalibrationOptions& options, JointCalibration& result) {
   Eigen::Array3d weight = Eigen::Array3d::Zero();
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   for (const JointWork& mine : work) {
-    if (mine.fitted && mine.fitted->fit.percussion_distance_std.minCoeff() > 0.0) {
+    if (shows_percussion(mine)) {
       const Eigen::Array3d w = mine.fitted->fit.percussion_distance_std.array().square().inverse();
       weight += w;
       sum += w * mine.fitted->fit.model.percussion_distance.array();
@@ -208,7 +226,7 @@ void combine_percussion(const std::vector<JointWork>& work, const JointCalibrati
     // The sensor's static errors are common to all joints and do not average out.
     Eigen::Array3d by_sensor = Eigen::Array3d::Zero();
     for (const JointWork& mine : work) {
-      if (mine.fitted) {
+      if (shows_percussion(mine)) {
         const PercussionJacobian& jacobian = mine.fitted->percussion_jacobian;
         const Eigen::Array3d w = mine.fitted->fit.percussion_distance_std.array().square().inverse() / weight;
         by_sensor += w * (jacobian * result.sensor.covariance * jacobian.transpose()).diagonal().array();
@@ -224,7 +242,7 @@ void combine_percussion(const std::vector<JointWork>& work, const JointCalibrati
 
 double largest_change(const Placed& before, const Placed& after, const std::vector<JointWork>& work) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < after.lines.size(); ++i) {
+  for (std::size_t i = 0; i < after.axes.size(); ++i) {
     if (!after.chain.axes[i] || !before.chain.axes[i]) {
       largest = std::max(largest, before.chain.axes[i].has_value() == after.chain.axes[i].has_value() ? 0.0 : 1e9);
       continue;
@@ -236,9 +254,23 @@ double largest_change(const Placed& before, const Placed& after, const std::vect
   return largest;
 }
 
+void name_unseen_sliding(JointCalibration& result, const TestFit& fit) {
+  constexpr double well_seen = 5e-3;  // rad
+  const double direction_std = std::sqrt(fit.noise_covariance.diagonal().head<2>().maxCoeff());
+  if (direction_std > well_seen) {
+    result.unseen.push_back(joint_name(fit.joint) + " direction: it accelerated by " + one_decimal(1e3 * fit.acceleration_rms) +
+                            " mm/s^2 rms only, which shows its direction to " + one_decimal(1e3 * direction_std) +
+                            " mrad; move it faster, such as 0.5 Hz over 0.3 m");
+  }
+}
+
 void name_unseen(JointCalibration& result, const Segmentation& segmentation) {
   for (const TestFit& fit : result.fits) {
     const JointTest& test = segmentation.tests[static_cast<std::size_t>(fit.test)];
+    if (fit.type == JointType::prismatic) {
+      name_unseen_sliding(result, fit);
+      continue;
+    }
     if (fit.gravity_share < 0.1) {
       result.unseen.push_back(joint_name(fit.joint) + " direction x bias: its axis is within " +
                               one_decimal(std::asin(std::min(1.0, fit.gravity_share)) / degree) +
@@ -285,7 +317,12 @@ ScrewChain JointCalibration::chain() const {
 JointCalibration calibrate_joints(const Recording& recording, const Segmentation& segmentation,
                                   const JointCalibrationOptions& options) {
   validate(recording, options);
-  const double tolerance = SegmentationOptions{}.configuration_tolerance;
+  SegmentationOptions thresholds;
+  thresholds.joint_types = options.joint_types;
+  const ArmJoints arm{
+      options.joint_types.empty() ? std::vector<JointType>(static_cast<std::size_t>(recording.joints()), JointType::revolute)
+                                  : options.joint_types,
+      thresholds.configuration_tolerance * threshold_units(thresholds, recording.joints())};
   JointCalibration result;
   result.sensor = fit_sensor_from_gravity(dwell_means(segmentation), options.sensor, options.gravity,
                                           options.adapt_sensor_prior, dwell_noise(segmentation));
@@ -308,19 +345,19 @@ JointCalibration calibrate_joints(const Recording& recording, const Segmentation
   }
   result.reference_configuration =
       options.reference_configuration ? *options.reference_configuration
-                                      : choose_reference(segmentation, tested, recording.joint_positions.row(0), tolerance);
-  Placed placed = place(work, result.reference_configuration, tolerance);
+                                      : choose_reference(segmentation, tested, recording.joint_positions.row(0), arm);
+  Placed placed = place(work, result.reference_configuration, arm);
   const auto complete_chain = [&] {
     combine_percussion(work, options, result);
     placed.chain.percussion_distance = result.percussion_distance;
-    placed.chain.up_gravity = mean_up_gravity(placed.chain, segmentation, result.sensor.sensor, tolerance);
+    placed.chain.up_gravity = mean_up_gravity(placed.chain, segmentation, result.sensor.sensor, arm.tolerance);
   };
   complete_chain();
   result.passes = 1;
   result.converged = !regression;
   while (regression && result.passes < options.max_passes && !result.converged) {
     fit_all(work, options.use_resting_encoders ? &placed.chain : nullptr, result.sensor, options, recording.sample_rate);
-    Placed next = place(work, result.reference_configuration, tolerance);
+    Placed next = place(work, result.reference_configuration, arm);
     // The noise that weighs the fits also settles: two passes at least.
     result.converged = result.passes > 1 && largest_change(placed, next, work) < 0.01;
     placed = std::move(next);
@@ -338,6 +375,9 @@ JointCalibration calibrate_joints(const Recording& recording, const Segmentation
     estimate.reason = work[at].reason;
     if (work[at].fitted) {
       estimate.fit = static_cast<Index>(result.fits.size());
+      const auto& by_sensor = work[at].fitted->acceleration_scale_jacobian;
+      const double variance = (by_sensor * result.sensor.covariance * by_sensor.transpose()).value();
+      work[at].fitted->fit.acceleration_scale_std = std::hypot(work[at].fitted->fit.acceleration_scale_std, std::sqrt(variance));
       result.fits.push_back(std::move(work[at].fitted->fit));
     }
     if (placed.chain.axes[at]) {

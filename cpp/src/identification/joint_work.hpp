@@ -13,19 +13,21 @@ namespace circlepoint {
 
 // Everything one joint contributes; `reason` is empty while it can be estimated.
 struct JointWork {
+  JointType type = JointType::revolute;
   std::optional<TestSamples> samples;
   std::optional<FittedTest> fitted;
   std::string reason;
 };
 
 struct Placed {
-  std::vector<std::optional<Line>> lines;  // at the tests' configurations; absent where missing or not to be carried
+  std::vector<std::optional<ScrewAxis>> axes;  // at the tests' configurations; absent where missing or not to be carried
   std::vector<Eigen::VectorXd> configurations;
+  std::vector<JointType> types;
   PartialChain chain;
 };
 
-// Lines at their tests' configurations -> chain at the reference configuration, tip to base.
-PartialChain carry_all(const std::vector<std::optional<Line>>& lines, const std::vector<Eigen::VectorXd>& configurations,
+// Axes at their tests' configurations -> chain at the reference configuration, tip to base. A prismatic axis' point is zero.
+PartialChain carry_all(const std::vector<std::optional<ScrewAxis>>& axes, const std::vector<Eigen::VectorXd>& configurations,
                        const Eigen::VectorXd& reference);
 
 // Covariance (4n, 4n) of the placed lines' local coordinates: noise of the tests, the sensor's static errors (shared by all

@@ -1,23 +1,18 @@
 #include "test_fit.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "circlepoint/conditioning/butterworth.hpp"
 #include "circlepoint/core/error.hpp"
+#include "regression_noise.hpp"
 
 namespace circlepoint {
 namespace {
 
 using Matrix15 = Eigen::Matrix<double, 15, 15>;
-
-double rms(const Eigen::Ref<const Samples3>& residual, double parameters) {
-  const double dof = std::max(1.0, static_cast<double>(residual.size()) - parameters);
-  return std::sqrt(residual.squaredNorm() / dof);
-}
 
 // Residual of the unconstrained regression: the noise to start from, before any model is fitted.
 double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<const Samples3>& y, int columns) {
@@ -27,70 +22,7 @@ double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<c
   const Eigen::MatrixXd used = x.leftCols(columns);
   const Eigen::MatrixXd readings = y;
   const Eigen::MatrixXd coefficients = used.colPivHouseholderQr().solve(readings);
-  return rms(readings - used * coefficients, 3.0 * columns);
-}
-
-// Covariance of sum x r^T (15 entries, channels stacked) from sums over blocks: residuals may be correlated within a block
-// of 0.25 s and across channels.
-Matrix15 score_covariance(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<const Samples3>& residual, double sample_rate) {
-  const Index block = std::max<Index>(1, static_cast<Index>(std::lround(0.25 * sample_rate)));
-  Matrix15 sum = Matrix15::Zero();
-  Index blocks = 0;
-  for (Index begin = 0; begin < x.rows(); begin += block) {
-    const Index count = std::min(block, x.rows() - begin);
-    const Matrix53 score = x.middleRows(begin, count).transpose() * residual.middleRows(begin, count);
-    const Eigen::Map<const Eigen::Matrix<double, 15, 1>> stacked(score.data());
-    sum += stacked * stacked.transpose();
-    ++blocks;
-  }
-  // Five coefficients a channel were fitted to the same residuals.
-  return blocks > 5 ? Matrix15(sum * (static_cast<double>(blocks) / static_cast<double>(blocks - 5))) : Matrix15(2.0 * sum);
-}
-
-// 1 for samples to keep, 0 around knocks: residuals beyond six robust standard deviations of their channel, and half a filter
-// length either side. Where more than a fifth would go they are no knocks but the model's failure, and all are kept.
-Eigen::VectorXd without_knocks(const Samples3& residual, Index margin) {
-  const Index count = residual.rows();
-  Eigen::VectorXd kept = Eigen::VectorXd::Ones(count);
-  for (int channel = 0; channel < 3; ++channel) {
-    const Eigen::VectorXd magnitude = residual.col(channel).cwiseAbs();
-    Eigen::VectorXd sorted = magnitude;
-    std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
-    const double limit = 6.0 * 1.4826 * sorted[count / 2];
-    for (Index i = 0; i < count; ++i) {
-      if (magnitude[i] > limit) {
-        const Index begin = std::max<Index>(0, i - margin);
-        kept.segment(begin, std::min(count, i + margin + 1) - begin).setZero();
-      }
-    }
-  }
-  return kept.mean() > 0.8 ? kept : Eigen::VectorXd(Eigen::VectorXd::Ones(count));
-}
-
-// How much wider sums of these residuals are than white noise of the same variance would make them.
-double correlation_factor(const Matrix15& score, const Matrix5& information, double variance) {
-  const Matrix5 ridge = 1e-12 * information.diagonal().asDiagonal().toDenseMatrix();
-  const Eigen::LDLT<Matrix5> factor(information + ridge);
-  double sum = 0.0;
-  for (int channel = 0; channel < 3; ++channel) {
-    sum += factor.solve(score.block<5, 5>(5 * channel, 5 * channel)).trace();
-  }
-  return std::clamp(sum / (15.0 * std::max(variance, 1e-300)), 1.0, 1e6);
-}
-
-// Derivative of the weighted score by the sensor's bias, scale, misalignment and second-order errors: the readings are
-// linear in them. `square_score` is sum x y_k^2, weighted alike.
-Eigen::Matrix<double, 15, sensor_errors> score_by_sensor(const RegressionStatistics& weighted, const Matrix53& square_score) {
-  Eigen::Matrix<double, 15, sensor_errors> derivative = Eigen::Matrix<double, 15, sensor_errors>::Zero();
-  for (int channel = 0; channel < 3; ++channel) {
-    derivative.block<5, 1>(5 * channel, channel) = -weighted.information.col(0);
-    derivative.block<5, 1>(5 * channel, 3 + channel) = -weighted.score.col(channel);
-    derivative.block<5, 1>(5 * channel, 9 + channel) = -square_score.col(channel);
-  }
-  derivative.block<5, 1>(5, 6) = -weighted.score.col(0);
-  derivative.block<5, 1>(10, 7) = -weighted.score.col(0);
-  derivative.block<5, 1>(10, 8) = -weighted.score.col(1);
-  return derivative;
+  return residual_rms(readings - used * coefficients, 3.0 * columns);
 }
 
 // Rank and condition of the information in units of each parameter's own standard deviation.
@@ -150,7 +82,8 @@ TestRegression make_regression(const TestSamples& samples, const PartialChain* c
   return problem;
 }
 
-void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model) {
+void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model,
+                const Matrix53& coefficients) {
   fit.joint = samples.joint;
   fit.test = samples.test;
   fit.configuration = samples.configuration;
@@ -160,13 +93,13 @@ void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& 
   fit.time = regression.time;
   fit.position = regression.position;
   fit.measured = regression.dynamic_readings;
-  fit.modelled = regression.dynamic_regressors * model.coefficients();
+  fit.modelled = regression.dynamic_regressors * coefficients;
   fit.dwell_positions = samples.dwell_positions.col(samples.joint);
   fit.dwell_measured = regression.static_readings;
-  fit.dwell_modelled = regression.static_regressors * model.coefficients();
+  fit.dwell_modelled = regression.static_regressors * coefficients;
   fit.dwell_noise_std = samples.dwell_floor;
-  fit.static_noise_std = std::max(rms(fit.dwell_measured - fit.dwell_modelled, 7.0), samples.dwell_floor);
-  fit.dynamic_noise_std = std::max(rms(fit.measured - fit.modelled, 12.0), 1e-6);
+  fit.static_noise_std = std::max(residual_rms(fit.dwell_measured - fit.dwell_modelled, 7.0), samples.dwell_floor);
+  fit.dynamic_noise_std = std::max(residual_rms(fit.measured - fit.modelled, 12.0), 1e-6);
 }
 
 FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* chain, const JointModelPrior& prior,
@@ -203,10 +136,10 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
 
   const JointModelFit solution = fit_joint_model(weighted, prior);
   FittedTest fitted;
-  record_fit(fitted.fit, samples, whole, solution.model);
+  record_fit(fitted.fit, samples, whole, solution.model, solution.model.coefficients());
   const Samples3 residual = problem.dynamic_readings - problem.dynamic_regressors * solution.model.coefficients();
   const double kept_share = noise.kept.size() > 0 ? noise.kept.mean() : 1.0;
-  fitted.fit.dynamic_noise_std = std::max(rms(residual, 12.0) / std::sqrt(kept_share), 1e-6);
+  fitted.fit.dynamic_noise_std = std::max(residual_rms(residual, 12.0) / std::sqrt(kept_share), 1e-6);
   fitted.fit.knocks = static_cast<Index>(std::lround((1.0 - kept_share) * static_cast<double>(residual.rows())));
   fitted.fit.iterations = solution.iterations;
   fitted.fit.converged = solution.converged;
@@ -236,7 +169,7 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
       static_weight * problem.static_regressors.transpose() * problem.static_readings.cwiseAbs2() +
       dynamic_weight * problem.dynamic_regressors.transpose() * problem.dynamic_readings.cwiseAbs2();
   const Eigen::Matrix<double, joint_model_parameters, sensor_errors> by_sensor =
-      inverse * solution.jacobian.transpose() * score_by_sensor(weighted, square_score);
+      inverse * solution.jacobian.transpose() * score_by_sensor(weighted.information, weighted.score, square_score);
   fitted.sensor_jacobian = selector * by_sensor;
   fitted.percussion_jacobian = by_sensor.bottomRows<3>();
   return fitted;

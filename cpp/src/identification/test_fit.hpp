@@ -1,5 +1,5 @@
 #pragma once
-// Fitting one joint test, by the regression or by the paper's methods.
+// Fitting the test of a revolute joint, by the regression or by the paper's methods.
 
 #include "circlepoint/identification/joint_calibration.hpp"
 #include "partial_chain.hpp"
@@ -22,6 +22,8 @@ struct FittedTest {
   TestFit fit;
   TestNoise noise;
   SensorJacobian sensor_jacobian = SensorJacobian::Zero();  // of the line's local coordinates by the sensor's static errors
+  Eigen::Matrix<double, 1, sensor_errors> acceleration_scale_jacobian =
+      Eigen::Matrix<double, 1, sensor_errors>::Zero();  // of a prismatic joint's acceleration scale by the same
   PercussionJacobian percussion_jacobian = PercussionJacobian::Zero();  // of the percussion distances by the same
 };
 
@@ -47,6 +49,7 @@ struct TestRegression {
 TestRegression make_regression(const TestSamples& samples, const PartialChain* chain, int filter_order);
 
 // Signals, residual figures and the model itself into the fit.
-void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model);
+void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model,
+                const Matrix53& coefficients);
 
 }  // namespace circlepoint

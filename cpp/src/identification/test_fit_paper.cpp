@@ -1,5 +1,4 @@
 #include <Eigen/LU>
-#include <algorithm>
 
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/geometry/rigid_transform.hpp"
@@ -9,18 +8,6 @@
 
 namespace circlepoint {
 namespace {
-
-const MotionSamples& widest_motion(const TestSamples& samples) {
-  if (samples.motions.empty()) {
-    throw NotIdentifiable("no motion of this joint alone was found; record one, for example 0.5 Hz over 150 degrees for 6 s");
-  }
-  const auto travel = [&](const MotionSamples& motion) {
-    const auto column = motion.position.col(samples.joint);
-    return column.maxCoeff() - column.minCoeff();
-  };
-  return *std::max_element(samples.motions.begin(), samples.motions.end(),
-                           [&](const auto& a, const auto& b) { return travel(a) < travel(b); });
-}
 
 // Derivative of the plane fit's direction, in tangent_basis(z), by the sensor's bias, scale, misalignment and second-order
 // errors: d = -(sum w p p^T)^-1 sum w p (z . df), p the poses in the tangent plane about their mean. A bias moves the plane
@@ -72,7 +59,8 @@ FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, do
   model.percussion_distance.setConstant(options.sensor.percussion_distance);
 
   FittedTest fitted;
-  record_fit(fitted.fit, samples, make_regression(samples, nullptr, options.filter_order), model);
+  record_fit(fitted.fit, samples, make_regression(samples, nullptr, options.filter_order), model,
+             model.coefficients());
   fitted.fit.iterations = center.iterations;
   fitted.fit.converged = center.converged && axis.converged;
   fitted.fit.gravity_share = model.gravity.norm() / options.gravity;

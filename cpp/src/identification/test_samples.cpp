@@ -6,6 +6,7 @@
 
 #include "circlepoint/conditioning/butterworth.hpp"
 #include "circlepoint/conditioning/differentiate.hpp"
+#include "circlepoint/core/error.hpp"
 
 namespace circlepoint {
 namespace {
@@ -51,6 +52,18 @@ MotionSamples condition(const Recording& recording, const SingleJointMotion& mot
 }
 
 }  // namespace
+
+const MotionSamples& widest_motion(const TestSamples& samples) {
+  if (samples.motions.empty()) {
+    throw NotIdentifiable("no motion of this joint alone was found; record one, for example 0.5 Hz over 150 degrees for 6 s");
+  }
+  const auto travel = [&](const MotionSamples& motion) {
+    const auto column = motion.position.col(samples.joint);
+    return column.maxCoeff() - column.minCoeff();
+  };
+  return *std::max_element(samples.motions.begin(), samples.motions.end(),
+                           [&](const auto& a, const auto& b) { return travel(a) < travel(b); });
+}
 
 Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibrationOptions& options) {
   if (options.encoder_resolution.size() == recording.joints()) {

@@ -30,6 +30,9 @@ struct TestSamples {
   std::vector<MotionSamples> motions;
 };
 
+// The motion with the largest travel. Raises NotIdentifiable where there is none.
+const MotionSamples& widest_motion(const TestSamples& samples);
+
 // The smallest step of each joint's encoder, rad or m: from options, or the smallest change seen (0 for a joint at rest).
 Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibrationOptions& options);
 

@@ -81,10 +81,11 @@ void validate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor,
 }
 
 // Raw encoder values: the nearest count, of the joints that are counted.
-void quantise(SamplesX& positions, const ScrewChain& chain, const Eigen::VectorXd& counts_per_revolution) {
-  for (Index j = 0; j < counts_per_revolution.size(); ++j) {
-    if (counts_per_revolution[j] > 0.0 && chain.axes[static_cast<std::size_t>(j)].type == JointType::revolute) {
-      const double count = 2.0 * std::numbers::pi / counts_per_revolution[j];
+void quantise(SamplesX& positions, const ScrewChain& chain, const Eigen::VectorXd& counts) {
+  for (Index j = 0; j < counts.size(); ++j) {
+    if (counts[j] > 0.0) {
+      const bool turns = chain.axes[static_cast<std::size_t>(j)].type == JointType::revolute;
+      const double count = (turns ? 2.0 * std::numbers::pi : 1.0) / counts[j];
       positions.col(j) = (positions.col(j).array() / count).round() * count;
     }
   }

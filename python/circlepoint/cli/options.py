@@ -48,6 +48,11 @@ def add_recording(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--columns", type=Path, metavar="MAP", help="column names and units of the logs, map.yaml")
     parser.add_argument("--joint-topic", metavar="TOPIC", help="of a bag with several sensor_msgs/JointState")
     parser.add_argument("--imu-topic", metavar="TOPIC", help="of a bag with several sensor_msgs/Imu")
+    add_gravity(parser)
+
+
+def add_gravity(parser: argparse.ArgumentParser) -> None:
+    """Add the local gravity."""
     parser.add_argument(
         "--gravity",
         type=positive,

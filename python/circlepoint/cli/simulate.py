@@ -6,10 +6,10 @@ import argparse
 import json
 from pathlib import Path
 
-from circlepoint._core import STANDARD_GRAVITY, InvalidInput
+from circlepoint._core import InvalidInput
 from circlepoint.arm import load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
-from circlepoint.cli.options import Subparsers, add_arm, add_command, positive, progress
+from circlepoint.cli.options import Subparsers, add_arm, add_command, add_gravity, progress
 
 _TEXT = """\
 Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,
@@ -41,13 +41,7 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--out", type=Path, required=True, metavar="LOG", help="recording to write")
     parser.add_argument("--seed", type=_seed, required=True, metavar="N", help="of the sensor's errors and its noise")
-    parser.add_argument(
-        "--gravity",
-        type=positive,
-        default=STANDARD_GRAVITY,
-        metavar="G",
-        help="local gravity, m/s^2 (default: %(default)s)",
-    )
+    add_gravity(parser)
     parser.add_argument("--json", action="store_true", help="print the truth as JSON")
     parser.set_defaults(run=run)
 

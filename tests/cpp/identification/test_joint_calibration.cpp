@@ -174,11 +174,35 @@ TEST(JointCalibration, AVerticalAxisIsFoundAndItsWeaknessNamed) {
   EXPECT_THAT(result.unseen.front(), HasSubstr("joint 1 direction x bias"));
 }
 
-TEST(JointCalibration, PrismaticJointsAreRefusedByName) {
-  const Recording recording = support::record_tests(four_joints(), up, support::joint_tests({3}));
-  JointCalibrationOptions options;
-  options.joint_types = {JointType::prismatic, JointType::revolute, JointType::revolute, JointType::revolute};
-  EXPECT_THAT(calibrated(recording, options).joints[0].reason, HasSubstr("prismatic"));
+TEST(JointCalibration, ASlidingJointShowsItsDirectionByItsAcceleration) {
+  for (const std::size_t slides : {0U, 2U}) {
+    ScrewChain chain = four_joints();
+    chain.axes[slides].type = JointType::prismatic;
+    std::vector<Excitation> pieces;
+    JointCalibrationOptions options;
+    for (Index joint = 0; joint < 4; ++joint) {
+      const bool turns = joint != static_cast<Index>(slides);
+      options.joint_types.push_back(turns ? JointType::revolute : JointType::prismatic);
+      if (turns) {
+        support::append_joint_test(pieces, joint);
+      } else {
+        pieces.emplace_back(RaisedCosine{.joint = joint, .span = 0.3, .frequency = 0.5, .duration = 4.0});
+      }
+    }
+    SegmentationOptions thresholds;
+    thresholds.joint_types = options.joint_types;
+    const Recording recording = support::record_tests(chain, up, pieces);
+    const JointCalibration result = calibrate_joints(recording, segment(recording, thresholds), options);
+    ASSERT_TRUE(result.complete()) << result.joints[slides].reason;
+    EXPECT_TRUE(result.converged);
+    const ScrewChain truth = rebase(chain, result.reference_configuration);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Line& line = result.joints[i].axis->screw.line;
+      EXPECT_THAT(line.direction, support::EntriesNear(truth.axes[i].line.direction, 5e-5)) << "joint " << i;
+      EXPECT_THAT(line.point, support::EntriesNear(i == slides ? Eigen::Vector3d::Zero() : truth.axes[i].line.point, 5e-5));
+    }
+    EXPECT_EQ(result.joints[slides].axis->point_std(), 0.0);
+  }
 }
 
 TEST(JointCalibration, OptionsThatDoNotFitTheRecordingAreRefused) {

@@ -9,12 +9,14 @@
 
 #include <vector>
 
-#include "circlepoint/geometry/line.hpp"
+#include "circlepoint/geometry/screw_axis.hpp"
 
 namespace circlepoint {
 
 /// T_target_source for lines in correspondence. `length` (m) weighs a radian of direction against a metre of position.
+/// Of the lines of prismatic joints (`types`, one a line; empty: all revolute) only the directions count.
 /// Raises InvalidInput for different numbers of lines or none.
-RigidTransform align_lines(const std::vector<Line>& target, const std::vector<Line>& source, double length = 0.5);
+RigidTransform align_lines(const std::vector<Line>& target, const std::vector<Line>& source, double length = 0.5,
+                           const std::vector<JointType>& types = {});
 
 }  // namespace circlepoint

@@ -6,7 +6,8 @@
 // them yield (milliradians, proportional to the moving joint's effort). It runs from rest to rest; momentary turning
 // points within do not divide it. Where another joint joins later, or stops earlier, the part alone counts if it is
 // long enough: it then begins or ends in motion, and says so. Thresholds come from the data: encoder step, sensor noise
-// at rest, the moving joint's own speed and travel. Nothing crosses a gap.
+// at rest, the moving joint's own speed and travel. Nothing crosses a gap. A prismatic joint's lengths are judged as angles
+// at metres_per_radian (with its default 0.2 m: motions from 6 mm, the same configuration within 20 mm).
 //
 // A test collects what was recorded of one joint at one configuration of the others: dwells that differ in that joint
 // only, and its motions. Dwells may belong to several tests (the home position does to all).
@@ -48,10 +49,10 @@ struct JointTest {
 
 struct SegmentationOptions : StaticIntervalOptions {
   double others_ratio = 0.1;             ///< others may move at this fraction of the moving joint's speed and travel,
-  double others_travel = 0.06;           ///< rad or m: but may not yield more than this over a motion
-  double min_travel = 0.03;              ///< rad or m: shorter motions are ignored
+  double others_travel = 0.06;           ///< rad: but may not yield more than this over a motion
+  double min_travel = 0.03;              ///< rad: shorter motions are ignored
   double min_partial = 0.5;              ///< s: shortest motion that does not run from rest to rest
-  double configuration_tolerance = 0.1;  ///< rad or m: the same test, if every other joint is within this
+  double configuration_tolerance = 0.1;  ///< rad: the same test, if every other joint is within this
 };
 
 struct Segmentation {

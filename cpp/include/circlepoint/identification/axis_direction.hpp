@@ -40,7 +40,7 @@ AxisDirectionFit fit_axis_direction(const Eigen::Ref<const Samples3>& specific_f
 AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& specific_force, const RobustOptions& options = {});
 
 /// The direction or its opposite, whichever turns the samples the way the joint turned.
-/// angle: (N) rad; specific_force: (N, 3) m/s^2.
+/// angle: (N) rad; specific_force: (N, 3) m/s^2. Raises as fit_gravity_model, whose coefficients tell.
 Eigen::Vector3d orient_axis(const Eigen::Vector3d& direction, const Eigen::Ref<const Eigen::VectorXd>& angle,
                             const Eigen::Ref<const Samples3>& specific_force);
 

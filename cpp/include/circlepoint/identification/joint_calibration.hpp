@@ -9,6 +9,10 @@
 //              the paper's two methods as printed (with the errata of docs/method): axis by the static plane fit, centre by
 //              double or single integration, no correction for the other joints.
 //
+// A prismatic joint does not turn the sensor: it reads y = A + E s_ddot, and the direction is that of E. By the regression, or
+// (position, velocity) as the straight line the integrated readings follow. It needs a motion and no rests; its line's point
+// does not act, is zero, and has no variance.
+//
 // Each test gives its axis as a line in the sensor frame at the test's configuration; from tip to base the lines are carried
 // to one reference configuration. Two joints of a chain can be estimated where the others cannot: what is missing is
 // reported with its reason, and only lines that need an unknown joint to be carried are lost with it.
@@ -42,7 +46,7 @@ struct JointCalibrationOptions {
   bool use_resting_encoders = true;      ///< correct for joints that yield
   int max_passes = 12;
   std::vector<JointType> joint_types;    ///< empty: all revolute
-  Eigen::VectorXd encoder_resolution;    ///< (n) rad a count; empty: the smallest step seen
+  Eigen::VectorXd encoder_resolution;    ///< (n) rad or m a count; empty: the smallest step seen
   std::optional<Eigen::VectorXd> reference_configuration;  ///< (n) rad or m; absent: the dwell that serves most joints
 };
 
@@ -50,16 +54,20 @@ struct JointCalibrationOptions {
 struct TestFit {
   Index joint = 0;
   Index test = 0;                      ///< into Segmentation::tests
+  JointType type = JointType::revolute;
   Eigen::VectorXd configuration;       ///< (n) rad or m
-  JointModel model;
+  JointModel model;                    ///< prismatic: axis and constant (up-gravity and bias) only
   Eigen::Matrix4d noise_covariance = Eigen::Matrix4d::Zero();  ///< of the line's local coordinates
   Eigen::Vector3d percussion_distance_std = Eigen::Vector3d::Zero();  ///< m
+  double acceleration_rms = 0.0;        ///< m/s^2, prismatic: of the joint, filtered, about its mean
+  double acceleration_scale = 1.0;      ///< prismatic: acceleration read by that of the encoder; 1 where both are right
+  double acceleration_scale_std = 0.0;  ///< noise and the sensor's scale
   double cutoff = 0.0;                 ///< Hz
   double dwell_noise_std = 0.0;        ///< m/s^2, of a dwell's mean by the scatter of its own samples
   double static_noise_std = 0.0;       ///< m/s^2, of a dwell's mean about the model
   double dynamic_noise_std = 0.0;      ///< m/s^2, of filtered samples about the model
   double correlation_factor = 1.0;     ///< variance inflation of sums of dynamic residuals
-  int parameters = 0;                  ///< of the model: line 4, gravity and bias 5, percussion distances 3
+  int parameters = 0;                  ///< of the model: line 4, gravity and bias 5, percussion distances 3; prismatic 6
   int rank = 0;                        ///< parameter combinations the data alone determine
   double condition_number = 0.0;       ///< of the scaled information matrix, data alone
   double gravity_share = 0.0;          ///< |up-gravity orthogonal to the axis| / g
@@ -68,10 +76,10 @@ struct TestFit {
   int iterations = 0;
   bool converged = false;
   Eigen::VectorXd time;                ///< (M) s, dynamic samples
-  Eigen::VectorXd position;            ///< (M) rad
+  Eigen::VectorXd position;            ///< (M) rad or m
   Samples3 measured;                   ///< (M, 3) m/s^2, filtered, corrected for sensor errors and yielding joints
   Samples3 modelled;                   ///< (M, 3) m/s^2, through the same filter
-  Eigen::VectorXd dwell_positions;     ///< (K) rad
+  Eigen::VectorXd dwell_positions;     ///< (K) rad or m
   Samples3 dwell_measured;             ///< (K, 3) m/s^2
   Samples3 dwell_modelled;             ///< (K, 3) m/s^2
 };

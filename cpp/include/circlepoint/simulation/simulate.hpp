@@ -2,7 +2,7 @@
 // What a real arm and a real sensor would have recorded of a motion.
 //
 //   reading = clip(sensor(f(theta) + vibration, w) + drift + noise)
-//   encoder = round(theta counts / 2 pi) 2 pi / counts
+//   encoder = round(theta counts / 2 pi) 2 pi / counts      (prismatic: counts are per metre, without the 2 pi)
 //
 // with f and w of the product of exponentials (chain/screw_chain) at the joints' actual positions theta:
 //
@@ -54,7 +54,7 @@ struct VibrationOptions {
 struct SimulationOptions {
   double noise_std = 0.0;      ///< m/s^2, white, per sample
   double range = 0.0;          ///< m/s^2, readings clip at +-range; 0: no clipping
-  Eigen::VectorXd encoder_counts_per_revolution{};  ///< (n), 0: exact; empty: all exact; prismatic are always exact
+  Eigen::VectorXd encoder_counts_per_revolution{};  ///< (n), of a prismatic joint per metre; 0: exact; empty: all
   Eigen::Vector3d bias_drift = Eigen::Vector3d::Zero();  ///< m/s^2, reached linearly from 0 over the recording
   Eigen::VectorXd compliance{};  ///< (n) rad per m^2/s^2 (prismatic: m per m/s^2); empty: rigid
   VibrationOptions vibration{};
