@@ -7,7 +7,7 @@ keeps its nominal value and is listed under ``kept_nominal``.
 from circlepoint.export.form import Export
 from circlepoint.export.result import CalibratedArm, calibrated_arm, load_result
 from circlepoint.export.urdf import write_calibrated_urdf
-from circlepoint.export.write import FORMS, export_result, write_export
+from circlepoint.export.write import FORMS, export_result, write_description, write_export
 
 __all__ = [
     "FORMS",
@@ -17,5 +17,6 @@ __all__ = [
     "export_result",
     "load_result",
     "write_calibrated_urdf",
+    "write_description",
     "write_export",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from circlepoint._core import InvalidInput
 from circlepoint.arm import Arm, load_arm
@@ -16,14 +16,14 @@ from circlepoint.export.nominal_frames import frames_of_arm
 from circlepoint.export.pinocchio import export_pinocchio
 from circlepoint.export.placement import place
 from circlepoint.export.poe import export_poe
-from circlepoint.export.result import CalibratedArm, load_result
+from circlepoint.export.result import CalibratedArm, calibrated_arm, load_result
 from circlepoint.export.table import export_table
 from circlepoint.export.ur import export_ur
 from circlepoint.export.urdf import export_urdf, minimal_urdf
 from circlepoint.export.urdf_text import read_urdf_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from circlepoint.export.placement import PlacedArm
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 FORMS = ("urdf", "dh", "mdh", "hayati", "poe", "ur", "kdl", "pinocchio", "table")
 KEPT_DESCRIPTIONS = ("nominal.urdf", "arm.yaml")
 """Names in a result folder under which the arm's description is looked for."""
+_URDF_ENDINGS = (".urdf", ".xml")
 _DOCUMENT_ENDINGS = (".yaml", ".yml", ".json")
 _PLAIN_FORMS: dict[str, Callable[[PlacedArm], Export]] = {
     "dh": lambda placed: export_dh(placed, "standard"),
@@ -142,6 +143,43 @@ def write_export(export: Export, folder: Path, asked: str, out: Path | None = No
     return list(files)
 
 
+def write_description(
+    folder: Path,
+    description: Path,
+    calibration_document: Mapping[str, Any],
+    *,
+    base: str | None = None,
+    tip: str | None = None,
+) -> list[Path]:
+    """Keep an arm's nominal description in its result folder, and write the calibrated URDF where a URDF came in.
+
+    Parameters
+    ----------
+    folder : Path
+        The result folder; it exists.
+    description : Path
+        The file the arm was read from: kept as ``arm.yaml`` or ``nominal.urdf``, where `export_result` finds it.
+    calibration_document : mapping
+        The content of ``calibration.json``; with a joint missing no URDF is written.
+    base, tip : str, optional
+        Links of the URDF.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+    """
+    is_urdf = description.suffix.lower() in _URDF_ENDINGS
+    kept = folder / (KEPT_DESCRIPTIONS[0] if is_urdf else KEPT_DESCRIPTIONS[1])
+    if not (kept.exists() and kept.samefile(description)):
+        write_atomically(kept, description.read_bytes())
+    if not is_urdf or not calibration_document["complete"]:
+        return [kept]
+    text = _urdf_text(description)
+    export = export_urdf(calibrated_arm(calibration_document), text, str(description), base=base, tip=tip)
+    return [kept, *write_export(export, folder, "urdf")]
+
+
 def _content(export: Export, out: Path) -> str:
     ending = out.suffix.lower()
     if ending in export.texts:
@@ -160,15 +198,18 @@ def _description(folder: Path, given: Path | None) -> Description | None:
         path = next((folder / name for name in KEPT_DESCRIPTIONS if (folder / name).is_file()), None)
     if path is None:
         return None
-    if path.suffix.lower() not in {".urdf", ".xml"}:
+    if path.suffix.lower() not in _URDF_ENDINGS:
         return Description(path, arm=load_arm(path))
+    return Description(path, urdf_text=_urdf_text(path))
+
+
+def _urdf_text(path: Path) -> str:
     try:
-        text = path.read_bytes().decode("utf-8")
+        return path.read_bytes().decode("utf-8")
     except OSError as error:
         raise InvalidInput(f"{path}: cannot be read ({error.strerror or error}); check the path") from error
     except UnicodeDecodeError as error:
         raise InvalidInput(f"{path}: is not UTF-8 text (byte {error.start}); save the URDF as UTF-8") from error
-    return Description(path, urdf_text=text)
 
 
 def _placed(arm: CalibratedArm, description: Description | None, base: str | None, tip: str | None) -> PlacedArm:
