@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import yaml
@@ -55,7 +56,7 @@ def header(placed: PlacedArm, form: str, notes: tuple[str, ...] = ()) -> dict[st
         "joint_positions": "raw encoder values, as recorded",
         "reference_configuration": plain(arm.reference),
         "base_frame": placed.base_name,
-        "nominal": None if placed.nominal is None else placed.nominal.source,
+        "nominal": None if placed.nominal is None else Path(placed.nominal.source).name,
         "joint_offsets": offsets_entry(placed),
         "T_base_sensor_at_reference": plain(placed.T_base_sensor),
         "kept_nominal": kept_nominal(placed),

@@ -84,7 +84,7 @@ def load_result(folder: Path) -> CalibratedArm:
     return calibrated_arm(document, where=str(path))
 
 
-def calibrated_arm(document: Mapping[str, Any], *, where: str = "calibration document") -> CalibratedArm:
+def calibrated_arm(document: Any, *, where: str = "calibration document") -> CalibratedArm:
     """Return the calibrated arm of a calibration document; raises as `load_result`, naming `where`."""
     if not isinstance(document, Mapping) or document.get("schema") != SCHEMA_NAME:
         found = document.get("schema") if isinstance(document, Mapping) else type(document).__name__
