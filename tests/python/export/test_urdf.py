@@ -176,7 +176,7 @@ def test_odd_but_legal_text_survives(newline, built_urdf):
         ("<!-- by hand -->", '<!DOCTYPE robot SYSTEM "http://localhost/robot.dtd">', "external part"),
         ('<link name="two"/>', '<xi:include href="other.xml"/><link name="two"/>', "includes another file"),
         ('<link name="two"/>', '<xacro:arm name="x"/><link name="two"/>', "expand it with xacro"),
-        ("xyz='0.2 0 0'", "xyz='${length} 0 0'", "line 17: joint 'b': origin xyz is"),
+        ("xyz='0.2 0 0'", "xyz='${length} 0 0'", "line 14: joint 'b': origin xyz is"),
         ("xyz='0.2 0 0'", "xyz='0.2 0'", "must be three numbers"),
         ('<axis xyz="0 1 0"/>', '<axis xyz="0 0 0"/>', "its axis is zero"),
         ('type="continuous"', 'type="floating"', "joint 'a' is floating"),
