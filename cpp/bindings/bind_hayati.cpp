@@ -30,7 +30,8 @@ void bind_hayati_chain(py::module_& m) {
       .finalize();
   py::class_<HayatiRow>(m, "HayatiRow", "A Denavit-Hartenberg row (beta = 0) or a Hayati row (d = 0), at q = 0.")
       .def(py::init<double, double, double, double, double, RowForm>(), py::arg("a") = 0.0, py::arg("alpha") = 0.0,
-           py::arg("d") = 0.0, py::arg("theta") = 0.0, py::arg("beta") = 0.0, py::arg("form") = RowForm::dh)
+           py::arg("d") = 0.0, py::arg("theta") = 0.0, py::arg("beta") = 0.0,
+           py::arg_v("form", RowForm::dh, "RowForm.dh"))
       .def_readonly("a", &HayatiRow::a, "m.")
       .def_readonly("alpha", &HayatiRow::alpha, "rad.")
       .def_readonly("d", &HayatiRow::d, "m.")
