@@ -15,6 +15,7 @@ using release_gil = py::call_guard<py::gil_scoped_release>;
 void bind_error(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_chain(py::module_& m);
+void bind_hayati(py::module_& m);
 void bind_sensor(py::module_& m);
 void bind_recording(py::module_& m);
 void bind_filters(py::module_& m);

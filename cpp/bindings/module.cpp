@@ -29,6 +29,7 @@ PYBIND11_MODULE(_core, m) {
   bind_geometry(m);
   bind_sensor(m);
   bind_chain(m);
+  bind_hayati(m);
   bind_recording(m);
   bind_filters(m);
   bind_segmentation(m);

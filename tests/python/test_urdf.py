@@ -20,12 +20,12 @@ PUBLIC = {
 
 
 def public_urdf(name):
-    """The file of a robot that a package of the group `robots` carries; the test is skipped without it."""
+    """The file of a robot that a package of the test group carries; the test is skipped without it."""
     package, ending, base, tip, joints = PUBLIC[name]
     try:
         files = importlib.metadata.files(package) or []
     except importlib.metadata.PackageNotFoundError:
-        pytest.skip(f"{package} is not installed (pip install --group robots)")
+        pytest.skip(f"{package} is not installed (pip install --group test)")
     path = next(file.locate() for file in files if str(file).endswith(ending))
     return path, base, tip, joints
 

@@ -73,6 +73,19 @@ KDL::Chain to_kdl(const ModifiedDhChain& chain) {
   return result;
 }
 
+KDL::Chain to_kdl(const HayatiChain& chain) {
+  require_types(chain);
+  KDL::Chain result;
+  result.addSegment(fixed_segment("base", to_kdl(chain.base)));
+  for (std::size_t i = 0; i < chain.rows.size(); ++i) {
+    const HayatiRow& row = chain.rows[i];
+    const KDL::Frame tilt(KDL::Rotation::RotY(row.beta));
+    result.addSegment(z_segment(i, chain.types[i], KDL::Frame::DH(row.a, row.alpha, row.d, row.theta) * tilt));
+  }
+  result.addSegment(fixed_segment("tool", to_kdl(chain.tool)));
+  return result;
+}
+
 KDL::Chain to_kdl(const ScrewChain& chain) {
   require(chain.reference_configuration.size() == chain.size(),
           "reference_configuration has " + std::to_string(chain.reference_configuration.size()) +

@@ -1,4 +1,4 @@
-"""The command: ``circlepoint demo | calibrate | check | simulate``."""
+"""The command: ``circlepoint demo | calibrate | check | simulate | export``."""
 
 from circlepoint.cli.main import main
 

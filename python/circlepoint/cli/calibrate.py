@@ -14,6 +14,7 @@ from circlepoint.atomic import require_writable_folder
 from circlepoint.calibration import Calibration, calibrate
 from circlepoint.cli.options import Subparsers, add_command, add_recording, numbers, progress
 from circlepoint.document import with_reading, write_document
+from circlepoint.export import write_description
 from circlepoint.recording_io import LoadedRecording, read_recording
 from circlepoint.sensor_presets import load_sensor
 
@@ -95,6 +96,7 @@ def run(options: argparse.Namespace) -> int:
         calibration = _estimate(options, loaded, arm, sensor)
         begin("writing")
         _write(options.out, calibration)
+        write_description(options.out, options.arm, calibration.document)
     document = calibration.document
     if options.json:
         print(json.dumps(document, indent=1, allow_nan=False))

@@ -9,7 +9,7 @@ import traceback
 from typing import TYPE_CHECKING
 
 import circlepoint
-from circlepoint.cli import calibrate, check, demo, simulate
+from circlepoint.cli import calibrate, check, demo, export, simulate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,6 +31,7 @@ examples:
   circlepoint demo --out demo-result
   circlepoint check log.csv --arm arm.yaml
   circlepoint calibrate log.csv --arm arm.yaml --out result
+  circlepoint export result --to urdf --arm arm.urdf
 """
 
 
@@ -93,7 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"circlepoint {circlepoint.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (demo, calibrate, check, simulate):
+    for command in (demo, calibrate, check, simulate, export):
         command.register(commands, common)
     return parser
 

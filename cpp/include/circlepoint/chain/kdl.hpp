@@ -7,6 +7,7 @@
 #include <kdl/chain.hpp>
 
 #include "circlepoint/chain/dh_chain.hpp"
+#include "circlepoint/chain/hayati_chain.hpp"
 #include "circlepoint/chain/screw_chain.hpp"
 
 namespace circlepoint {
@@ -14,6 +15,7 @@ namespace circlepoint {
 /// Raises InvalidInput when the chain does not have one joint type per row.
 KDL::Chain to_kdl(const StandardDhChain& chain);
 KDL::Chain to_kdl(const ModifiedDhChain& chain);
+KDL::Chain to_kdl(const HayatiChain& chain);
 /// Raises InvalidInput when reference_configuration does not have one entry per joint.
 KDL::Chain to_kdl(const ScrewChain& chain);
 
