@@ -9,7 +9,7 @@ import traceback
 from typing import TYPE_CHECKING
 
 import circlepoint
-from circlepoint.cli import calibrate, check, demo, simulate
+from circlepoint.cli import calibrate, check, demo, reproduce, simulate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -93,7 +93,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"circlepoint {circlepoint.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (demo, calibrate, check, simulate):
+    for command in (demo, calibrate, check, simulate, reproduce):
         command.register(commands, common)
     return parser
 

@@ -1,24 +1,32 @@
-"""The whole arm: every joint tested from its end stop, the lines put together, the end-point compared with the truth."""
+"""The whole arm: every joint tested from its end stop, the lines put together, the end-point against the truth."""
 
 from __future__ import annotations
 
 import functools
 import math
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 import circlepoint
 from circlepoint.arm import Arm, load_arm
 from circlepoint.demo import built_arm
-from circlepoint.reproduce.conditions import Conditions
-from circlepoint.reproduce.estimates import METHODS, angle_between, centre, regression, static_axis
+from circlepoint.reproduce.estimates import BEST, METHODS, Centre, angle_between, centre, regression, static_axis
 from circlepoint.reproduce.one_joint import Array, Joint, Readings, random_unit, run_tests
 from circlepoint.result_document import workspace
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from circlepoint.reproduce.conditions import Conditions
+
 ARM_FILE = Path(__file__).parent.parent / "arms" / "sarcos.yaml"
-HANDLE = (0.5, 0.0, 0.0)  # m, sec. 3.1: 0.5 m long; across the last joint's axis (assumed)
+HANDLE = (
+    0.25,
+    0.433,
+    0.0,
+)  # m, sec. 3.1: 0.5 m long; across the last joint's axis, no joint nearer than 0.46 m (assumed)
 STOP = -math.radians(75.0)  # rad, where every joint has its end stop (assumed): 150 degrees are spanned from there
 _least_tilt = 0.5  # sine of the angle between every axis and gravity
 
@@ -63,7 +71,7 @@ def joints_of(chain: circlepoint.ScrewChain, up: Array, sensor: circlepoint.Acce
     return [Joint(axis.line.direction, -axis.line.point, up, sensor) for axis in chain.axes]
 
 
-def arm_trial(conditions: Conditions, seed: int) -> ArmErrors:
+def arm_trial(conditions: Conditions, seed: int, methods: Mapping[str, Centre] = METHODS) -> ArmErrors:
     """Return the errors of one arm: its joints tested one by one, by every method."""
     chain, up = draw_arm(seed)
     sensor = circlepoint.draw_accelerometer(conditions.sensor, circlepoint.derive_seed(seed, 1))
@@ -73,24 +81,27 @@ def arm_trial(conditions: Conditions, seed: int) -> ArmErrors:
     ]
     axes = [static_axis(each) for each in readings]
     best = [regression(each, conditions) for each in corrected(readings, conditions)]
+    distance = conditions.sensor.percussion_distance
     levers = {
-        method: [centre(method, r, a, conditions).lever_sensor for r, a in zip(readings, axes, strict=True)]
-        for method in METHODS[:-1]
+        name: [centre(method, r, a, distance).lever_sensor for r, a in zip(readings, axes, strict=True)]
+        for name, method in methods.items()
     }
-    levers["regression"] = [model.lever for model in best]
-    directions = {method: [axis.direction for axis in axes] for method in METHODS[:-1]}
-    directions["regression"] = [model.axis for model in best]
+    directions = {name: [axis.direction for axis in axes] for name in methods}
+    levers[BEST] = [model.lever for model in best]
+    directions[BEST] = [model.axis for model in best]
+    plane = [axis.direction for axis in axes]
+    true_angle = angle_between(joints[0].axis, joints[1].axis)
     return ArmErrors(
-        axis=_angles(directions["position"], joints),
-        axis_best=_angles(directions["regression"], joints),
+        axis=_angles(plane, joints),
+        axis_best=_angles(directions[BEST], joints),
         centre={
-            method: np.array([np.linalg.norm(b - j.lever) for b, j in zip(levers[method], joints, strict=True)])
-            for method in METHODS
+            name: np.array([np.linalg.norm(b - j.lever) for b, j in zip(levers[name], joints, strict=True)])
+            for name in levers
         },
-        end_point={method: end_point_error(directions[method], levers[method], chain) for method in METHODS},
+        end_point={name: end_point_error(directions[name], levers[name], chain) for name in levers},
         first_angle=(
-            angle_between(*directions["position"][:2]) - angle_between(joints[0].axis, joints[1].axis),
-            angle_between(*directions["regression"][:2]) - angle_between(joints[0].axis, joints[1].axis),
+            angle_between(plane[0], plane[1]) - true_angle,
+            angle_between(directions[BEST][0], directions[BEST][1]) - true_angle,
         ),
     )
 
@@ -111,16 +122,13 @@ def corrected(readings: list[Readings], conditions: Conditions) -> list[Readings
 def end_point_error(directions: list[Array], levers: list[Array], truth: circlepoint.ScrewChain) -> float:
     """Return the rms distance, m, between estimated and true sensor position over the workspace."""
     axes = [
-        circlepoint.ScrewAxis(
-            type=circlepoint.JointType.revolute, line=circlepoint.make_line(direction, -lever)
-        )
+        circlepoint.ScrewAxis(type=circlepoint.JointType.revolute, line=circlepoint.make_line(direction, -lever))
         for direction, lever in zip(directions, levers, strict=True)
     ]
     estimate = circlepoint.ScrewChain(axes, truth.reference_configuration)
     configurations = workspace(sarcos(), truth.reference_configuration - STOP)
     difference = (
-        circlepoint.forward_kinematics(estimate, configurations)
-        - circlepoint.forward_kinematics(truth, configurations)
+        circlepoint.forward_kinematics(estimate, configurations) - circlepoint.forward_kinematics(truth, configurations)
     )[:, :3, 3]
     return float(np.sqrt(np.mean(np.sum(difference**2, axis=1))))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from circlepoint._core import AccelerometerSpecification
 from circlepoint.sensor_presets import load_sensor
@@ -20,6 +20,7 @@ DYNAMIC_STD = 10e-3  # m/s^2, sec. 4
 TANGENTIAL, ORTHOGONAL = 0.1, 0.01  # m/s^2, amplitudes of vibration, sec. 4
 WORST_ERROR = 5e-3  # m/s^2, p of sec. 4
 PERCUSSION_DISTANCE = 0.0182  # m, sec. 3.1
+CUTOFF = 10.0  # Hz, sec. 5
 REPEATS = 10  # sec. 4 and 5
 
 
@@ -40,7 +41,6 @@ class Conditions:
     frequency: float = FREQUENCY  # Hz
     periods: int = 1  # of eq. (11). Assumed: the paper does not say
     encoder_counts: float = ENCODER_COUNTS  # 0: exact
-    cutoff: float = 10.0  # Hz, of the estimators' low-pass, sec. 5
     distance: tuple[float, float] = (0.3, 0.7)  # m, sensor from axis. Assumed: the paper says less than 0.4 m, sec. 5
     bias_change: float = 0.0  # m/s^2, between the static and the dynamic test, in a random direction
 
@@ -55,3 +55,14 @@ def only(sensor: AccelerometerSpecification, *errors: str) -> AccelerometerSpeci
     return AccelerometerSpecification(
         percussion_distance=sensor.percussion_distance, **{error: getattr(sensor, error) for error in errors}
     )
+
+
+LOW_RATE = 100.0  # Hz
+CABLE_NOISE_STD = 0.1  # m/s^2, of a sample
+SHORT = (0.3, 0.4)  # m, sec. 5: less than 0.4 m
+"""The measured case; amounts assumed: the paper names the causes and gives no more than the distance."""
+
+
+def as_measured(conditions: Conditions) -> Conditions:
+    """Return the conditions with the paper's low sampling rate and the noise its cable picked up."""
+    return replace(conditions, rate=LOW_RATE, cable_noise_std=CABLE_NOISE_STD)

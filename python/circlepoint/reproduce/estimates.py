@@ -3,17 +3,48 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 import circlepoint
-from circlepoint.reproduce.conditions import Conditions
-from circlepoint.reproduce.one_joint import Array, Joint, Readings
+from circlepoint.reproduce.conditions import CUTOFF, Conditions
 
-METHODS = ("position", "velocity_means", "velocity", "regression")
-"""Circle through the path; |v|/|w| as printed; the same by least squares; the joint regression."""
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from circlepoint.reproduce.one_joint import Array, Joint, Readings
+
+BEST = "regression"
 _settling = 2.5  # cut-off periods at each end: the record starts and ends with a step of acceleration
+
+
+@dataclass(frozen=True)
+class Centre:
+    """One way of the paper to the centre of rotation."""
+
+    by: str
+    """`position` (method 1) or `velocity` (method 2)."""
+    least_squares: bool = True
+    """Method 2: least squares in place of the printed means."""
+    significant_rate: float = 0.2
+    """Method 2: samples slower than this share of the peak rate are left out."""
+    corrections: int | None = None
+    """Method 1: how often the centre of percussion is corrected for; None: to convergence."""
+    cutoff: float = CUTOFF
+    """Hz, sec. 5."""
+
+
+NOT_ZERO = 0.005
+"""Share of the peak rate from which on v "is different from zero" (sec. 2.2); the paper gives no number."""
+METHODS = {
+    "position": Centre("position"),
+    "velocity_means": Centre("velocity", least_squares=False, significant_rate=NOT_ZERO),
+    "velocity": Centre("velocity"),
+}
+"""Circle through the path; mean of |v|/|w| as printed; the same by least squares."""
+TWO_CORRECTIONS = Centre("position", corrections=2)
 
 
 class StaticAxis(NamedTuple):
@@ -50,26 +81,26 @@ def chart_axis(readings: Readings) -> tuple[Array, bool]:
     return circlepoint.orient_axis(fit.direction, readings.angle, readings.force), fit.converged
 
 
-def centre(
-    method: str, readings: Readings, axis: StaticAxis, conditions: Conditions, max_iterations: int = 20
-) -> circlepoint.CenterOfRotation:
-    """Return the centre of rotation by one of the paper's methods: `position`, `velocity_means` or `velocity`."""
+def centre(method: Centre, readings: Readings, axis: StaticAxis, distance: float) -> circlepoint.CenterOfRotation:
+    """Return the centre of rotation by one of the paper's methods; `distance` (m): of the centre of percussion."""
     options = circlepoint.CenterOptions()
-    options.percussion_distance = conditions.sensor.percussion_distance
-    options.cutoff = conditions.cutoff
+    options.percussion_distance = distance
+    options.cutoff = method.cutoff
     options.position_window = 0.0
-    options.least_squares = method != "velocity_means"
-    options.max_iterations = max_iterations
-    estimate = circlepoint.center_by_position if method == "position" else circlepoint.center_by_velocity
+    options.least_squares = method.least_squares
+    options.significant_rate = method.significant_rate
+    if method.corrections is not None:
+        options.max_iterations = method.corrections + 1  # the first estimate is the uncorrected one
+    estimate = circlepoint.center_by_position if method.by == "position" else circlepoint.center_by_velocity
     return estimate(readings.theta, readings.moving_force, readings.rate, axis.direction, axis.gravity, options)
 
 
 def regression(readings: Readings, conditions: Conditions) -> circlepoint.JointModel:
     """Return the joint's model by regression on both tests, readings and regressors through the same filter."""
     known = conditions.sensor
-    low_pass = circlepoint.butter(4, conditions.cutoff, readings.rate)
+    low_pass = circlepoint.butter(4, CUTOFF, readings.rate)
     smooth = circlepoint.sosfiltfilt(
-        circlepoint.butter(4, min(3.0 * conditions.cutoff, 0.4 * readings.rate), readings.rate), readings.theta
+        circlepoint.butter(4, min(3.0 * CUTOFF, 0.4 * readings.rate), readings.rate), readings.theta
     )
     speed = circlepoint.savgol_filter(smooth, 7, 6, deriv=1, delta=1 / readings.rate)
     acceleration = circlepoint.savgol_filter(smooth, 7, 6, deriv=2, delta=1 / readings.rate)
@@ -80,10 +111,10 @@ def regression(readings: Readings, conditions: Conditions) -> circlepoint.JointM
     moving = circlepoint.joint_regressors(readings.theta, speed, acceleration)
     regressors = circlepoint.sosfiltfilt(low_pass, moving)
     filtered = circlepoint.sosfiltfilt(low_pass, readings.moving_force)
-    edge = int(_settling * readings.rate / conditions.cutoff)
+    edge = int(_settling * readings.rate / CUTOFF)
     regressors = np.ascontiguousarray(regressors[edge:-edge])
     filtered = np.ascontiguousarray(filtered[edge:-edge])
-    correlated = readings.rate / (2.0 * conditions.cutoff)  # samples a filtered white residual stays correlated over
+    correlated = readings.rate / (2.0 * CUTOFF)  # samples a filtered white residual stays correlated over
     total.add(regressors, filtered, 1.0 / (_variance(regressors, filtered) * correlated))
     prior = circlepoint.JointModelPrior()
     prior.bias_std = max(2.0 * known.bias_std, 1e-6)
@@ -92,15 +123,18 @@ def regression(readings: Readings, conditions: Conditions) -> circlepoint.JointM
     return circlepoint.fit_joint_model(total, prior).model
 
 
-def evaluate(joint: Joint, readings: Readings, conditions: Conditions) -> JointErrors:
-    """Return the errors of every method on one joint's readings."""
+def evaluate(
+    joint: Joint, readings: Readings, conditions: Conditions, methods: Mapping[str, Centre] = METHODS
+) -> JointErrors:
+    """Return the errors of the paper's methods and of the regression on one joint's readings."""
     axis = static_axis(readings)
     best = regression(readings, conditions)
+    distance = conditions.sensor.percussion_distance
     errors = {
-        method: float(np.linalg.norm(centre(method, readings, axis, conditions).lever_sensor - joint.lever))
-        for method in METHODS[:-1]
+        name: float(np.linalg.norm(centre(method, readings, axis, distance).lever_sensor - joint.lever))
+        for name, method in methods.items()
     }
-    errors["regression"] = float(np.linalg.norm(best.lever - joint.lever))
+    errors[BEST] = float(np.linalg.norm(best.lever - joint.lever))
     return JointErrors(angle_between(axis.direction, joint.axis), angle_between(best.axis, joint.axis), errors)
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 import circlepoint
-from circlepoint.reproduce.conditions import Conditions
+
+if TYPE_CHECKING:
+    from circlepoint.reproduce.conditions import Conditions
 
 Array = NDArray[np.float64]
 _least_tilt = 0.5  # sine of the angle between axis and gravity: a plane fit needs the axis well off it
@@ -101,10 +103,8 @@ def dynamic_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array
     if conditions.bias_change > 0.0:
         change = random_unit(np.random.default_rng(circlepoint.derive_seed(seed, 3)))
         force = force + conditions.bias_change * change
-    return (
-        np.ascontiguousarray(log.joint_positions[::thinning, 0]),
-        np.ascontiguousarray(force[::thinning]),
-    )
+    moving = slice(0, -1, thinning)  # the last instant is the first of rest
+    return np.ascontiguousarray(log.joint_positions[moving, 0]), np.ascontiguousarray(force[moving])
 
 
 def raised_cosine(conditions: Conditions) -> circlepoint.RaisedCosine:

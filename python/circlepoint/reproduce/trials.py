@@ -1,13 +1,13 @@
 """Independent trials in a pool of threads, and what a statistic over ten of them, as the paper's, may come out as.
 
-Trial i of a study takes its seed from (study, i) and nothing else: any number of threads gives the same results. The core
-releases the interpreter while it simulates and estimates.
+Trial i of a study takes its seed from (study, i) and nothing else: any number of threads gives the same results. The
+core releases the interpreter while it simulates and estimates.
 """
 
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -33,14 +33,6 @@ class Spread:
     low: float
     high: float
 
-    def scaled(self, factor: float) -> Spread:
-        """Return the same in another unit."""
-        return Spread(factor * self.median, factor * self.low, factor * self.high)
-
-    def holds(self, value: float) -> bool:
-        """Return whether a value is within the interval."""
-        return self.low <= value <= self.high
-
 
 @dataclass(frozen=True)
 class ErrorSummary:
@@ -55,18 +47,6 @@ class ErrorSummary:
     rms_high: float
     quantile_95: float
     max: float
-
-    def scaled(self, factor: float) -> ErrorSummary:
-        """Return the same in another unit."""
-        return ErrorSummary(
-            self.trials,
-            *(spread.scaled(factor) for spread in (self.max_of_ten, self.std_of_ten, self.rms_of_ten)),
-            *(factor * value for value in (self.rms, self.rms_low, self.rms_high, self.quantile_95, self.max)),
-        )
-
-    def document(self) -> dict[str, object]:
-        """Return it as plain data."""
-        return asdict(self)
 
 
 class Runner:
@@ -89,8 +69,8 @@ class Runner:
 def summarise(errors: Sequence[float] | Array, seed: int = 0) -> ErrorSummary:
     """Return the statistics of error magnitudes (N,): groups of ten are drawn without replacement, 2000 times.
 
-    The paper's "standard deviation" over ten tests is read as the sample standard deviation of the ten magnitudes; the root
-    mean square is given beside it. The overall rms carries a bootstrap interval of 95 %.
+    The paper's "standard deviation" over ten tests may be that of the ten magnitudes or the root mean square about the
+    truth: both are given. The overall rms carries a bootstrap interval of 95 %.
     """
     values = np.asarray(errors, dtype=float)
     random = np.random.default_rng(seed)
@@ -122,4 +102,4 @@ def _tails() -> tuple[float, float]:
 
 
 def _rms(values: Array) -> Array:
-    return np.sqrt(np.mean(values**2, axis=-1))
+    return np.asarray(np.sqrt(np.mean(values**2, axis=-1)))

@@ -1,0 +1,167 @@
+"""The seven-joint arm: ten repeats of one experiment, every figure by the best method, and the end-point."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import circlepoint
+from circlepoint.reproduce.accuracy import static_readings
+from circlepoint.reproduce.arm_trial import ArmErrors, arm_trial, draw_arm, joints_of
+from circlepoint.reproduce.conditions import AVERAGED_STD, REPEATS, Conditions, as_measured
+from circlepoint.reproduce.estimates import BEST, METHODS, TWO_CORRECTIONS, angle_between, static_axis
+from circlepoint.reproduce.findings import Findings, Ours, Table
+from circlepoint.reproduce.trials import Runner, spread_of, summarise
+
+if TYPE_CHECKING:
+    from circlepoint.reproduce.one_joint import Array
+
+SEEDS = {"angle": 1996, "arm": 1997}
+THERMAL_SCALE = 200e-6  # 1 per degree, Table 1
+WARMING = 1.0  # degrees Celsius, one standard deviation from repeat to repeat (assumed)
+_all_methods = {**METHODS, "two_corrections": TWO_CORRECTIONS}
+
+
+def angle_trial(warming: float, seed: int) -> Array:
+    """Return ten repeats (10, 4): the angle between axes 1 and 2 less the true one, and the error of axis 2 (3,)."""
+    conditions = replace(Conditions(), static_noise_std=AVERAGED_STD)
+    chain, up = draw_arm(seed)
+    sensor = circlepoint.draw_accelerometer(conditions.sensor, circlepoint.derive_seed(seed, 1))
+    random = np.random.default_rng(circlepoint.derive_seed(seed, 2))
+    coefficient = THERMAL_SCALE * random.uniform(-1.0, 1.0, 3)
+    repeats = []
+    for repeat in range(REPEATS):
+        warm = _with_scale(sensor, sensor.scale + warming * random.normal() * coefficient)
+        first, second = joints_of(chain, up, warm)[:2]
+        axes = [
+            static_axis(
+                static_readings(joint, conditions, circlepoint.derive_seed(seed, 10 + 2 * repeat + k))
+            ).direction
+            for k, joint in enumerate((first, second))
+        ]
+        angle = angle_between(axes[0], axes[1]) - angle_between(first.axis, second.axis)
+        repeats.append([angle, *(axes[1] - second.axis)])
+    return np.array(repeats)
+
+
+def angle_between_axes(run: Runner, trials: int, found: Findings) -> None:
+    """Study the angle between the first two axes: a known misalignment, measured ten times."""
+    run.begin("angle between axes 1 and 2")
+    count = max(trials // 4, 5)
+    rows = []
+    for label, warming in (
+        ("noise of the averaged readings only", 0.0),
+        (f"sensor warms and cools by {WARMING:g} °C from repeat to repeat", WARMING),
+    ):
+        repeats = np.array(run.run(partial(angle_trial, warming), SEEDS["angle"], count))
+        scatter = repeats[:, :, 1:] - repeats[:, :, 1:].mean(axis=1, keepdims=True)
+        magnitudes = np.linalg.norm(scatter, axis=2)
+        angle_std = spread_of(repeats[:, :, 0].std(axis=1, ddof=1))
+        offset = spread_of(np.abs(repeats[:, :, 0].mean(axis=1)))
+        rows.append(
+            (
+                label,
+                (
+                    spread_of(magnitudes.max(axis=1)),
+                    spread_of(np.sqrt(np.sum(magnitudes**2, axis=1) / (REPEATS - 1))),
+                    angle_std,
+                    offset,
+                ),
+            )
+        )
+    found.tables.append(
+        Table(
+            id="repeatability",
+            title="Ten repeats of the static test with the same arm and sensor",
+            explanation="Averaged noise alone repeats far better than the paper's arm did. Its scatter is that of a "
+            "sensor "
+            "whose scale factors move by 200 ppm per degree (Table 1) and whose temperature wanders by about a degree.",
+            columns=("axis 2, max", "axis 2, std", "angle 1-2, std", "angle 1-2, error of the mean"),
+            rows=tuple(rows),
+            unit="mrad",
+            factor=1e3,
+        )
+    )
+    warm = rows[1][1]
+    still = rows[0][1]
+    text = (
+        f"Noise alone gives {1e3 * still[1].median:.3f} mrad; a sensor that wanders by {WARMING:g} °C between "
+        "repeats gives what "
+        "is shown (table “Ten repeats”)."
+    )
+    found.ours["repeat_max"] = Ours(warm[0], still[0], count, text)
+    found.ours["repeat_std"] = Ours(warm[1], still[1], count, text)
+    found.ours["axes_angle"] = Ours(
+        warm[2],
+        still[2],
+        count,
+        "Standard deviation of ten repeats against a known misalignment; the paper's ± 0.3 mrad. The mean of ten is "
+        "off by "
+        f"{1e3 * warm[3].median:.2f} mrad [{1e3 * warm[3].low:.2f}, {1e3 * warm[3].high:.2f}]: the scale factors' "
+        "share, which "
+        "repeating does not show. The 0.4 mrad themselves are this individual arm's and cannot be reproduced.",
+    )
+
+
+def whole_arm(run: Runner, trials: int, found: Findings) -> None:
+    """Study the seven-joint arm: every figure by the best method, and the end-point."""
+    run.begin("seven-joint arm as simulated")
+    conditions = Conditions()
+    as_simulated = run.run(partial(_arm, conditions), SEEDS["arm"], trials)
+    run.begin("seven-joint arm as measured")
+    noisy_arms = run.run(partial(_arm, as_measured(conditions)), SEEDS["arm"], trials)
+    axis = summarise(np.concatenate([arm.axis_best for arm in as_simulated]))
+    centre = summarise(np.concatenate([arm.centre[BEST] for arm in as_simulated]))
+    for key, best in (
+        ("axis_max", axis.max_of_ten),
+        ("axis_std", axis.rms_of_ten),
+        *((f"centre_{m}_max", centre.max_of_ten) for m in ("position", "velocity")),
+        *((f"centre_{m}_std", centre.rms_of_ten) for m in ("position", "velocity")),
+    ):
+        found.ours[key] = replace(found.ours[key], best_method=best)
+    noisy = summarise(np.concatenate([arm.axis for arm in noisy_arms]))
+    noisy_best = summarise(np.concatenate([arm.axis_best for arm in noisy_arms]))
+    found.ours["measured_axis"] = Ours(noisy.rms_of_ten, noisy_best.rms_of_ten, trials)
+    end = {name: spread_of([arm.end_point[name] for arm in noisy_arms]) for name in noisy_arms[0].end_point}
+    found.ours["end_point"] = Ours(end["velocity_means"], end[BEST], trials)
+    columns = (
+        "position, two corrections",
+        "position, converged",
+        "velocity, as printed",
+        "velocity, least squares",
+        BEST,
+    )
+    names = ("two_corrections", "position", "velocity_means", "velocity", BEST)
+    found.tables.append(
+        Table(
+            id="end_point",
+            title="End-point of the seven-joint arm",
+            explanation="Root mean square distance between the calibrated and the true end-point over 200 random "
+            "poses, "
+            "median and 95 % over arms. All seven joints carry their errors here; the paper measured two.",
+            columns=columns,
+            rows=tuple(
+                (label, tuple(spread_of([arm.end_point[name] for arm in arms]) for name in names))
+                for label, arms in (("as simulated", as_simulated), ("as measured", noisy_arms))
+            ),
+            unit="mm",
+            factor=1e3,
+        )
+    )
+
+
+def _arm(conditions: Conditions, seed: int) -> ArmErrors:
+    return arm_trial(conditions, seed, _all_methods)
+
+
+def _with_scale(sensor: circlepoint.AccelerometerModel, scale: Array) -> circlepoint.AccelerometerModel:
+    return circlepoint.AccelerometerModel(
+        bias=sensor.bias,
+        scale=scale,
+        misalignment=sensor.misalignment,
+        percussion_distance=sensor.percussion_distance,
+        second_order=sensor.second_order,
+    )
