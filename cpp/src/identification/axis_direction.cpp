@@ -180,10 +180,12 @@ AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& spe
   const Scatter scatter = scatter_of(specific_force, weights);
   require_plane(scatter, poses);
   fit = describe(specific_force, scatter, weights);
+  // At the chart's edge the solver stops without having arrived; the scatter of the same weights knows the minimum.
+  const bool arrived = z.cross(fit.direction).norm() < 1e-6;
   fit.direction = z.dot(fit.direction) >= 0.0 ? z : Eigen::Vector3d(-z);
   fit.offset = z.dot(fit.direction) >= 0.0 ? c : -c;
   fit.iterations = iteration;
-  fit.converged = converged;
+  fit.converged = converged && arrived;
   return fit;
 }
 

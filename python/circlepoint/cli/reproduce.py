@@ -11,9 +11,10 @@ from circlepoint.atomic import require_writable_folder
 from circlepoint.cli.options import Subparsers, add_command, progress
 
 _TEXT = """\
-Run the whole study of Canepa, Hollerbach and Boelen (1994) in simulation and write, for every number the paper
-states, the paper's, ours by the paper's own method and ours by the best method, with intervals:
-reproduction.html, reproduction.md, reproduction.json, and the paper's figures. Needs no input. Threads change the time, not the numbers."""
+Run the whole study of Canepa, Hollerbach and Boelen (1994) in simulation and write, for every number the paper states,
+the paper's, ours by the paper's own method and ours by the best method, with intervals: reproduction.html,
+reproduction.md, reproduction.json, and the paper's figures. Needs no input. Threads change the time, not the
+numbers."""
 
 _EXAMPLES = """\
   circlepoint reproduce --out reproduction      then open reproduction/reproduction.html

@@ -49,10 +49,10 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
     sensor = conditions.sensor
     cases = {
         "noise and bias only": only(sensor, "bias_std"),
-        "and scale factor, 200 ppm": only(sensor, "bias_std", "scale_std"),
-        "and second-order nonlinearity": only(sensor, "bias_std", "second_order_std"),
-        "and misalignment, 0.05 mrad": only(sensor, "bias_std", "misalignment_std"),
-        "and percussion distance, 0.25 mm": only(sensor, "bias_std", "percussion_distance_std"),
+        "… and scale factor, 200 ppm": only(sensor, "bias_std", "scale_std"),
+        "… and second-order nonlinearity": only(sensor, "bias_std", "second_order_std"),
+        "… and misalignment, 0.05 mrad": only(sensor, "bias_std", "misalignment_std"),
+        "… and percussion distance, 0.25 mm": only(sensor, "bias_std", "percussion_distance_std"),
     }
     rows = []
     for label, kind in cases.items():
@@ -63,11 +63,11 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
         Table(
             id="sensor_errors",
             title="Which error of the sensor makes the figures of section 4",
-            explanation="Median over groups of ten trials of the root mean square error, and the interval of 95 % "
-            "of the "
-            "groups. The axis is in mrad, the centres in mm. The axis owes its error to the scale factors, both "
-            "centres to "
-            "the tolerance of the percussion distance: noise and vibration alone give a quarter of it.",
+            explanation="Median over groups of ten trials of the root mean square error, and the interval of 95 % of "
+            "the groups; the axis in mrad, the centres in mm. The axis owes its error to the scale factors, method "
+            "1 and "
+            "the least squares of method 2 to the tolerance of the percussion distance, the printed method 2 to its "
+            "means.",
             columns=("axis, plane fit", *_titles()),
             rows=tuple(rows),
             unit="mrad, mm",
@@ -82,8 +82,8 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
         ),
         "centre_position": (
             f"Noise and vibration alone give {_milli(quiet[1])} mm rms, with the tolerance of the percussion distance "
-            f"{_milli(distance[1])}: the method takes the nominal 18.2 mm. What is missing to the paper's 2 mm is "
-            "vibration below 10 Hz (table “What the paper leaves open”)."
+            f"{_milli(distance[1])}: the method takes the nominal 18.2 mm. Vibration below 10 Hz adds to "
+            "it (table “What the paper leaves open”)."
         ),
         "centre_velocity": (
             f"The printed mean of |v|/|w| over nearly all samples costs most of it: {_milli(quiet[2])} mm rms with "

@@ -36,8 +36,8 @@ ASSUMED = (
     "Single-joint trials: axis, gravity and lever in random directions, sensor 0.3 to 0.7 m from the axis (assumed).",
     "Sensor: individuals drawn from the QA700 preset, a limit of the data sheet taken as one standard deviation.",
     "Vibration: stated amplitudes, five random frequencies between 10 and 60 Hz in each direction (assumed).",
-    "Dynamic test: one period of eq. (11), 2 s (assumed). The measured case: 100 Hz, 100 mm/s² of cable noise "
-    "(assumed).",
+    "Dynamic test: one period of eq. (11), 2 s (assumed).",
+    "The measured case: 100 Hz, 100 mm/s² of cable noise, 0.3 to 0.4 m (the amounts are assumed).",
     "“Standard deviation” of ten tests is read as the root mean square about the truth.",
 )
 FIGURES = {
