@@ -99,6 +99,14 @@ compliance : (n,) array_like, rad per m^2/s^2 (prismatic: m per m/s^2)
     How far each joint gives way to the weight of a unit mass at the sensor; empty for a rigid arm.
 vibration : VibrationOptions
 seed : int
+held_joints : HeldJoints
+    Joints that follow their command late and ring.
+temperature : TemperatureProfile, optional
+    Of the sensor while it records; the recording then has a temperature. None: the sensor is at its reference.
+angular_velocity_noise_std : float, rad/s, optional
+    White noise per sample of a gyroscope at the sensor; None: there is no gyroscope.
+acquisition : AcquisitionOptions, optional
+    What lies between sensor and log; the trajectory is then given at the analogue rate.
 )";
 
 constexpr const char* simulate_doc = R"(The recording a real arm and a real sensor would have made of a motion.
@@ -245,20 +253,31 @@ void bind_simulation(py::module_& m) {
   py::class_<SimulationOptions>(m, "SimulationOptions", options_doc)
       .def(py::init([](double noise_std, double range, const Eigen::VectorXd& counts, const Eigen::Vector3d& bias_drift,
                        const Eigen::VectorXd& compliance, const VibrationOptions& vibration_options,
-                       std::uint64_t seed) {
-             return SimulationOptions{noise_std, range, counts, bias_drift, compliance, vibration_options, seed};
+                       std::uint64_t seed, const HeldJoints& held_joints,
+                       const std::optional<TemperatureProfile>& temperature,
+                       std::optional<double> angular_velocity_noise_std,
+                       const std::optional<AcquisitionOptions>& acquisition) {
+             return SimulationOptions{noise_std, range,       counts,      bias_drift,
+                                      compliance, vibration_options, seed, held_joints,
+                                      temperature, angular_velocity_noise_std, acquisition};
            }),
            py::kw_only(), py::arg("noise_std") = options.noise_std, py::arg("range") = options.range,
            py::arg("encoder_counts_per_revolution") = none, py::arg("bias_drift") = options.bias_drift,
            py::arg("compliance") = none, py::arg_v("vibration", vibration, "VibrationOptions()"),
-           py::arg("seed") = options.seed)
+           py::arg("seed") = options.seed, py::arg_v("held_joints", HeldJoints{}, "HeldJoints()"),
+           py::arg("temperature") = py::none(), py::arg("angular_velocity_noise_std") = py::none(),
+           py::arg("acquisition") = py::none())
       .def_readonly("noise_std", &SimulationOptions::noise_std, "m/s^2 per sample")
       .def_readonly("range", &SimulationOptions::range, "m/s^2; 0: no clipping")
       .def_readonly("encoder_counts_per_revolution", &SimulationOptions::encoder_counts_per_revolution, "(n,)")
       .def_readonly("bias_drift", &SimulationOptions::bias_drift, "(3,) m/s^2 over the recording")
       .def_readonly("compliance", &SimulationOptions::compliance, "(n,) rad per m^2/s^2")
       .def_readonly("vibration", &SimulationOptions::vibration)
-      .def_readonly("seed", &SimulationOptions::seed);
+      .def_readonly("seed", &SimulationOptions::seed)
+      .def_readonly("held_joints", &SimulationOptions::held_joints)
+      .def_readonly("temperature", &SimulationOptions::temperature, "of the sensor, or None")
+      .def_readonly("angular_velocity_noise_std", &SimulationOptions::angular_velocity_noise_std, "rad/s, or None")
+      .def_readonly("acquisition", &SimulationOptions::acquisition, "or None");
 
   m.def("simulate", &simulate, py::arg("chain"), py::arg("up_gravity_sensor"), py::arg("sensor"), py::arg("trajectory"),
         py::arg_v("options", options, "SimulationOptions()"), release_gil(), simulate_doc);

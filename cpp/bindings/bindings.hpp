@@ -20,6 +20,7 @@ void bind_recording(py::module_& m);
 void bind_filters(py::module_& m);
 void bind_segmentation(py::module_& m);
 void bind_identification(py::module_& m);
+void bind_acquisition(py::module_& m);
 void bind_simulation(py::module_& m);
 
 }  // namespace circlepoint::bindings

@@ -33,6 +33,7 @@ PYBIND11_MODULE(_core, m) {
   bind_filters(m);
   bind_segmentation(m);
   bind_identification(m);
+  bind_acquisition(m);
   bind_simulation(m);
   m.attr("__all__") = public_names(m);
 }

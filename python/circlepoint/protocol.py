@@ -1,8 +1,9 @@
 """Test plans: what the arm is to do, from a YAML file to joint trajectories.
 
 A plan says the sample rate, where the joints rest, and a list of tests: stepped sweeps and raised cosines (eq. (11) of
-Canepa, Hollerbach, Boelen 1994) of one joint or of every joint in turn, and motions of all joints at once.
-``plans/paper.yaml`` in the package is one.
+Canepa, Hollerbach, Boelen 1994) of one joint or of every joint in turn, and motions of all joints at once. For a
+simulation it may also say how the recording is acquired (`circlepoint.acquisition`). ``plans/paper.yaml`` in the
+package is one, ``plans/paper-acquisition.yaml`` one with the paper's acquisition chain.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from circlepoint._core import (
     SteppedSweep,
     joint_trajectory,
 )
+from circlepoint.acquisition import Acquisition, read_acquisition
 from circlepoint.yaml_io import Fields, describe, load_fields
 
 if TYPE_CHECKING:
@@ -34,7 +36,7 @@ if TYPE_CHECKING:
 
 PAPER_PLAN = Path(__file__).parent / "plans" / "paper.yaml"
 
-_PLAN = ("name", "rate_hz", "rest_deg", "rest", "pause", "tests")
+_PLAN = ("name", "rate_hz", "rest_deg", "rest", "pause", "tests", "acquisition")
 _TEST = ("joint", "static", "dynamic", "free")
 _STATIC = ("span_deg", "span_m", "steps", "dwell", "move", "return")
 _DYNAMIC = ("span_deg", "span_m", "frequency_hz", "duration")
@@ -65,6 +67,8 @@ class Plan:
         The motions in order.
     pause : float
         s of rest before the first motion, between any two and after the last.
+    acquisition : Acquisition or None
+        How a simulated recording is acquired.
     """
 
     name: str
@@ -72,10 +76,12 @@ class Plan:
     rest: NDArray[np.float64]
     pieces: tuple[Piece, ...]
     pause: float
+    acquisition: Acquisition | None = None
 
     def trajectory(self) -> JointTrajectory:
-        """Return the joint trajectory of the whole plan on one clock."""
-        return joint_trajectory(self.rest, list(self.pieces), self.sample_rate, self.pause)
+        """Return the joint trajectory of the whole plan on one clock: with an acquisition, its analogue one."""
+        oversampling = 1 if self.acquisition is None else self.acquisition.oversampling
+        return joint_trajectory(self.rest, list(self.pieces), self.sample_rate * oversampling, self.pause)
 
 
 def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequence[str] | None = None) -> Plan:
@@ -84,9 +90,10 @@ def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequenc
     Parameters
     ----------
     path
-        YAML file with ``rate_hz``, ``rest_deg`` (or ``rest`` in rad and m), optional ``name`` and ``pause`` (s), and
-        ``tests``: a list of ``{joint: NAME | all, static: {...}, dynamic: {...}}`` and ``{free: {...}}``. Ranges are
-        ``span_deg`` and ``amplitude_deg`` for revolute joints, ``span_m`` and ``amplitude_m`` for prismatic ones.
+        YAML file with ``rate_hz``, ``rest_deg`` (or ``rest`` in rad and m), optional ``name``, ``pause`` (s) and
+        ``acquisition`` (see `circlepoint.acquisition`), and ``tests``: a list of ``{joint: NAME | all, static: {...},
+        dynamic: {...}}`` and ``{free: {...}}``. Ranges are ``span_deg`` and ``amplitude_deg`` for revolute joints,
+        ``span_m`` and ``amplitude_m`` for prismatic ones.
     joint_names
         The arm's joints, base to tip.
     joint_types
@@ -116,7 +123,10 @@ def load_plan(path: str | Path, joint_names: Sequence[str], joint_types: Sequenc
     pieces: list[Piece] = []
     for test in fields.each("tests", "a list of tests", _TEST):
         pieces.extend(_test(test, names, prismatic))
-    plan = Plan(name=name, sample_rate=sample_rate, rest=rest, pieces=tuple(pieces), pause=pause)
+    acquisition = read_acquisition(fields, len(names))
+    plan = Plan(
+        name=name, sample_rate=sample_rate, rest=rest, pieces=tuple(pieces), pause=pause, acquisition=acquisition
+    )
     _require_feasible(plan, fields.file.path)
     return plan
 

@@ -22,6 +22,8 @@ def truth_document(
     gravity_sensor: list[float],
     sensor: circlepoint.AccelerometerModel,
     seed: int,
+    *,
+    sheet: circlepoint.AccelerometerModel | None = None,
 ) -> Document:
     """Return what is true of a simulated recording, under the names of ``calibration.json``; SI units.
 
@@ -34,10 +36,20 @@ def truth_document(
     gravity_sensor : list of float
         m/s^2, what an ideal sensor reads at rest there.
     sensor : AccelerometerModel
-        The individual sensor.
+        The individual sensor, as its readings are recorded.
     seed : int
         What it was drawn with.
+    sheet : AccelerometerModel, optional
+        Its calibration sheet, where it has one.
     """
+    extra: Document = {} if sheet is None else {"sheet": {"bias": sheet.bias.tolist(), "scale": sheet.scale.tolist()}}
+    for name, model in (("sensor", sensor), ("sheet", sheet)):
+        if model is not None and (model.temperature.bias.any() or model.temperature.scale.any()):
+            extra[f"{name}_temperature"] = {
+                "reference": model.temperature.reference,
+                "bias": model.temperature.bias.tolist(),
+                "scale": model.temperature.scale.tolist(),
+            }
     return {
         "schema": "circlepoint/truth/1",
         "arm": arm.name,
@@ -49,6 +61,7 @@ def truth_document(
             name: getattr(sensor, name).tolist()
             for name in ("bias", "scale", "misalignment", "percussion_distance", "second_order")
         },
+        **extra,
     }
 
 

@@ -53,7 +53,30 @@ void require_same_rows(const Eigen::Ref<const Samples3>& samples, const char* na
   }
 }
 
+void require_temperatures(Index samples, const Eigen::Ref<const Eigen::VectorXd>& temperature) {
+  require(temperature.size() == samples, "temperature has " + std::to_string(temperature.size()) + " values for " +
+                                             std::to_string(samples) + " samples; give one a sample");
+  for (Index i = 0; i < samples; ++i) {
+    require(std::isfinite(temperature[i]), "temperature of row " + std::to_string(i) + " is " +
+                                               std::to_string(temperature[i]) + "; give degrees Celsius");
+  }
+}
+
+void require_scale_factor(double current_scale_factor) {
+  require(std::isfinite(current_scale_factor) && current_scale_factor > 0.0,
+          "current_scale_factor is " + std::to_string(current_scale_factor) + " A s^2/m; give a positive number");
+}
+
 }  // namespace
+
+AccelerometerModel AccelerometerModel::at(double degrees) const {
+  require(std::isfinite(degrees), "the temperature is " + std::to_string(degrees) + "; give degrees Celsius");
+  AccelerometerModel held = *this;
+  held.bias += temperature.bias_change(degrees);
+  held.scale += temperature.scale_change(degrees);
+  held.temperature = TemperatureModel{.reference = degrees};
+  return held;
+}
 
 Eigen::Matrix3d AccelerometerModel::misalignment_matrix() const {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
@@ -102,6 +125,46 @@ Samples3 correct(const AccelerometerModel& model, const Eigen::Ref<const Samples
     specific_force.row(i) = alignment * u + percussion_term(model, angular_velocity.row(i));
   }
   return specific_force;
+}
+
+Samples3 measure(const AccelerometerModel& model, const Eigen::Ref<const Samples3>& specific_force,
+                 const Eigen::Ref<const Samples3>& angular_velocity,
+                 const Eigen::Ref<const Eigen::VectorXd>& temperature) {
+  require_same_rows(specific_force, "specific_force", angular_velocity);
+  require_temperatures(specific_force.rows(), temperature);
+  Samples3 reading(specific_force.rows(), 3);
+  for (Index i = 0; i < reading.rows(); ++i) {
+    reading.row(i) = model.at(temperature[i]).measure(specific_force.row(i), angular_velocity.row(i));
+  }
+  return reading;
+}
+
+Samples3 correct(const AccelerometerModel& model, const Eigen::Ref<const Samples3>& reading,
+                 const Eigen::Ref<const Samples3>& angular_velocity,
+                 const Eigen::Ref<const Eigen::VectorXd>& temperature) {
+  require_same_rows(reading, "reading", angular_velocity);
+  require_temperatures(reading.rows(), temperature);
+  Samples3 specific_force(reading.rows(), 3);
+  for (Index i = 0; i < reading.rows(); ++i) {
+    Eigen::Vector3d u;
+    const AccelerometerModel held = model.at(temperature[i]);
+    if (const auto failure = undo_channels(held, reading.row(i), u)) {
+      throw InvalidInput(no_inverse_message(*failure, held, ", row " + std::to_string(i) + ","));
+    }
+    specific_force.row(i) = held.misalignment_matrix().triangularView<Eigen::UnitLower>().solve(u) +
+                            percussion_term(held, angular_velocity.row(i));
+  }
+  return specific_force;
+}
+
+Samples3 output_current(const Eigen::Ref<const Samples3>& reading, double current_scale_factor) {
+  require_scale_factor(current_scale_factor);
+  return reading * current_scale_factor;
+}
+
+Samples3 reading_from_current(const Eigen::Ref<const Samples3>& current, double current_scale_factor) {
+  require_scale_factor(current_scale_factor);
+  return current / current_scale_factor;
 }
 
 AccelerometerModel draw_accelerometer(const AccelerometerSpecification& specification, std::uint64_t seed) {

@@ -1,5 +1,6 @@
 #include "circlepoint/simulation/excitation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -13,7 +14,7 @@ namespace circlepoint {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-// A sample this close to a boundary belongs to the piece that begins there, whatever the sum of durations rounded to.
+// A sample this close to a boundary is at it, whatever the sum of durations rounded to.
 constexpr double boundary_tolerance = 1e-9;
 
 // A scalar function of time with its derivatives.
@@ -57,7 +58,7 @@ class Timeline {
   // `motion(joint, t)` is the displacement at t seconds into the piece; `displacement` the one it ends with.
   using Motion = std::function<Jet(Index joint, double t)>;
   void append(double duration, Motion motion, const Eigen::VectorXd& displacement) {
-    pieces_.push_back({duration_, end_position_, std::move(motion)});
+    pieces_.push_back({duration_, duration, end_position_, std::move(motion)});
     duration_ += duration;
     end_position_ += displacement;
   }
@@ -89,18 +90,23 @@ class Timeline {
     std::size_t current = 0;
     for (Index i = 0; i < count; ++i) {
       const double t = static_cast<double>(i) / sample_rate;
+      const std::size_t before = current;
       while (current + 1 < pieces_.size() && t >= pieces_[current + 1].begin - boundary_tolerance) {
         ++current;
       }
-      // The instant at which everything has ended is at rest.
-      const bool ended = pieces_.empty() || t >= duration_ - boundary_tolerance;
+      const Piece& piece = pieces_[current];
+      const bool at_boundary = current > 0 && current > before && std::abs(t - piece.begin) <= boundary_tolerance;
       trajectory.time[i] = t;
       for (Index joint = 0; joint < joints(); ++joint) {
-        const Jet jet = ended ? Jet{} : pieces_[current].motion(joint, std::max(t - pieces_[current].begin, 0.0));
-        const double origin = ended ? end_position_[joint] : pieces_[current].start[joint];
-        trajectory.position(i, joint) = origin + jet.value;
+        const Jet jet = piece.motion(joint, std::clamp(t - piece.begin, 0.0, piece.duration));
+        trajectory.position(i, joint) = piece.start[joint] + jet.value;
         trajectory.velocity(i, joint) = jet.rate;
         trajectory.acceleration(i, joint) = jet.acceleration;
+        if (at_boundary) {
+          const Piece& ending = pieces_[current - 1];
+          const double other_side = ending.motion(joint, ending.duration).acceleration;
+          trajectory.acceleration(i, joint) = 0.5 * (jet.acceleration + other_side);
+        }
       }
     }
     return trajectory;
@@ -109,6 +115,7 @@ class Timeline {
  private:
   struct Piece {
     double begin;
+    double duration;
     Eigen::VectorXd start;
     Motion motion;
   };

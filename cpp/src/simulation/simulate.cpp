@@ -7,13 +7,12 @@
 
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/core/random.hpp"
+#include "acquire.hpp"
 #include "give_way.hpp"
 #include "vibration.hpp"
 
 namespace circlepoint {
 namespace {
-
-enum Stream : std::uint64_t { noise_stream, vibration_stream };
 
 void require_not_negative(double value, const char* name) {
   require(std::isfinite(value) && value >= 0.0,
@@ -52,6 +51,18 @@ void validate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor,
           "encoder_counts_per_revolution holds a negative number; give counts, or 0 for an exact encoder");
   require_one_a_joint(options.compliance, "compliance", chain.size());
   require(options.bias_drift.allFinite(), "bias_drift holds a value that is not finite");
+  if (options.temperature) {
+    require(std::isfinite(options.temperature->start) && std::isfinite(options.temperature->rise) &&
+                std::isfinite(options.temperature->sensor_offset) && options.temperature->time_constant > 0.0,
+            "the temperature's start, rise or sensor_offset is not finite, or its time_constant not positive");
+    require_not_negative(options.temperature->sensor_noise_std, "the temperature's sensor_noise_std");
+  }
+  if (options.angular_velocity_noise_std) {
+    require_not_negative(*options.angular_velocity_noise_std, "angular_velocity_noise_std");
+  }
+  if (options.acquisition) {
+    validate(*options.acquisition, trajectory.samples(), trajectory.sample_rate);
+  }
   const VibrationOptions& vibration = options.vibration;
   require_not_negative(vibration.tangential_amplitude, "vibration tangential_amplitude");
   require_not_negative(vibration.orthogonal_amplitude, "vibration orthogonal_amplitude");
@@ -79,30 +90,36 @@ void quantise(SamplesX& positions, const ScrewChain& chain, const Eigen::VectorX
   }
 }
 
-}  // namespace
+// Everything that happens at the end-point, at every instant of the trajectory.
+struct EndPoint {
+  AnalogueSignals signals;
+  Samples3 angular_velocity;  // rad/s, in the sensor frame
+};
 
-Recording simulate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor, const AccelerometerModel& sensor,
-                   const JointTrajectory& trajectory, const SimulationOptions& options) {
-  validate(chain, up_gravity_sensor, trajectory, options);
+EndPoint move(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor, const AccelerometerModel& sensor,
+              const JointTrajectory& trajectory, const SimulationOptions& options) {
   const Index samples = trajectory.samples();
   const Eigen::Vector3d up_gravity_base = chain.home.linear() * up_gravity_sensor;
   const bool vibrates = options.vibration.tangential_amplitude > 0.0 || options.vibration.orthogonal_amplitude > 0.0;
   const Eigen::VectorXd envelope =
       vibrates ? motion_envelope(trajectory, options.vibration.ramp) : Eigen::VectorXd::Zero(samples);
-  RandomSource noise(derive_seed(options.seed, noise_stream));
   Vibration vibration(options.vibration, derive_seed(options.seed, vibration_stream));
+  const JointTrajectory followed = follow(trajectory, options.held_joints);
 
-  Recording recording;
-  recording.time = trajectory.time;
-  recording.sample_rate = trajectory.sample_rate;
-  recording.spans = {{0, samples}};
-  recording.joint_positions.resize(samples, chain.size());
-  recording.specific_force.resize(samples, 3);
+  EndPoint end_point;
+  AnalogueSignals& signals = end_point.signals;
+  signals.time = trajectory.time;
+  signals.rate = trajectory.sample_rate;
+  signals.position.resize(samples, chain.size());
+  signals.velocity.resize(samples, chain.size());
+  signals.reading.resize(samples, 3);
+  signals.temperature.resize(options.temperature ? samples : 0);
+  end_point.angular_velocity.resize(samples, 3);
   JointState state;
   for (Index i = 0; i < samples; ++i) {
-    state.position = trajectory.position.row(i);
-    state.velocity = trajectory.velocity.row(i);
-    state.acceleration = trajectory.acceleration.row(i);
+    state.position = followed.position.row(i);
+    state.velocity = followed.velocity.row(i);
+    state.acceleration = followed.acceleration.row(i);
     if (options.compliance.size() > 0) {
       state = add_give_way(chain, up_gravity_base, options.compliance, state);
     }
@@ -112,18 +129,43 @@ Recording simulate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_se
       const Eigen::Vector3d velocity_sensor = motion.T_base_sensor.linear().transpose() * motion.velocity_base;
       force += vibration.at(trajectory.time[i], velocity_sensor, envelope[i]);
     }
-    Eigen::Vector3d reading = sensor.measure(force, motion.angular_velocity_sensor);
+    Eigen::Vector3d reading;
+    if (options.temperature) {
+      signals.temperature[i] = options.temperature->at(trajectory.time[i] - trajectory.time[0]);
+      reading = sensor.at(signals.temperature[i]).measure(force, motion.angular_velocity_sensor);
+    } else {
+      reading = sensor.measure(force, motion.angular_velocity_sensor);
+    }
     reading += options.bias_drift * (static_cast<double>(i) / static_cast<double>(std::max<Index>(samples - 1, 1)));
-    if (options.noise_std > 0.0) {
-      for (Index k = 0; k < 3; ++k) {
-        reading[k] += options.noise_std * noise.normal();
-      }
+    signals.position.row(i) = state.position;
+    signals.velocity.row(i) = state.velocity;
+    signals.reading.row(i) = reading;
+    end_point.angular_velocity.row(i) = motion.angular_velocity_sensor;
+  }
+  return end_point;
+}
+
+}  // namespace
+
+Recording simulate(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor, const AccelerometerModel& sensor,
+                   const JointTrajectory& trajectory, const SimulationOptions& options) {
+  validate(chain, up_gravity_sensor, trajectory, options);
+  const EndPoint end_point = move(chain, up_gravity_sensor, sensor, trajectory, options);
+  // Without a chain of acquisition: one sample an instant, noise after the sensor, and clipping last of all.
+  const AcquisitionOptions acquisition = options.acquisition.value_or(AcquisitionOptions{});
+  const double sensor_range = options.acquisition ? options.range : 0.0;
+  Recording recording = acquire(end_point.signals, acquisition, options.temperature.value_or(TemperatureProfile{}),
+                                sensor_range, options.noise_std, options.seed);
+  if (!options.acquisition && options.range > 0.0) {
+    recording.specific_force = recording.specific_force.cwiseMax(-options.range).cwiseMin(options.range);
+  }
+  if (options.angular_velocity_noise_std) {
+    RandomSource gyroscope(derive_seed(options.seed, gyroscope_stream));
+    Samples3 rates = end_point.angular_velocity(Eigen::seqN(0, recording.samples(), acquisition.oversampling), Eigen::all);
+    for (double& rate : rates.reshaped<Eigen::RowMajor>()) {
+      rate += *options.angular_velocity_noise_std * gyroscope.normal();
     }
-    if (options.range > 0.0) {
-      reading = reading.cwiseMax(-options.range).cwiseMin(options.range);
-    }
-    recording.joint_positions.row(i) = state.position;
-    recording.specific_force.row(i) = reading;
+    recording.angular_velocity = std::move(rates);
   }
   quantise(recording.joint_positions, chain, options.encoder_counts_per_revolution);
   return recording;

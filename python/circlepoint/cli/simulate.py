@@ -15,7 +15,10 @@ _TEXT = """\
 Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,
 .csv.gz or .parquet) and what is true of it to <LOG without its ending>.truth.json. The arm is the nominal one of ARM,
 standing upright, with the sensor at its last Denavit-Hartenberg frame; the sensor is an individual of the kind given,
-drawn with the seed. The same seed gives the same recording."""
+drawn with the seed. A plan with an `acquisition` section is recorded through the paper's chain (conditioning filters,
+multiplexed converter, encoders read apart) or the one it describes; the sensor then has its noise by band, its
+frequency response, and the temperature errors its calibration sheet corrects. The same seed gives the same
+recording."""
 
 _EXAMPLES = """\
   circlepoint simulate plan.yaml --arm arm.yaml --sensor qa700 --out log.csv --seed 1
@@ -73,23 +76,27 @@ def run(options: argparse.Namespace) -> int:
     up_base = np.array([0.0, 0.0, options.gravity])
     up_sensor = circlepoint.forward_kinematics(nominal, plan.rest)[:3, :3].T @ up_base
     chain = circlepoint.rebase(nominal, plan.rest)
-    sensor = circlepoint.draw_accelerometer(specification, circlepoint.derive_seed(options.seed, 0))
+    counts = np.array([counts or 0.0 for counts in arm.encoder_counts or ()])
+    drawn = circlepoint.draw_calibrated_accelerometer(specification, circlepoint.derive_seed(options.seed, 0))
+    noise_seed = circlepoint.derive_seed(options.seed, 1)
+    sheet = None
+    if plan.acquisition is None:
+        actual = sensor = drawn.residual
+        simulation = circlepoint.SimulationOptions(
+            noise_std=specification.noise_std,
+            range=specification.range,
+            encoder_counts_per_revolution=counts,
+            seed=noise_seed,
+        )
+    else:
+        actual, sheet = drawn.actual, drawn.sheet
+        sensor = drawn.residual if plan.acquisition.corrected else actual
+        simulation = plan.acquisition.simulation_options(specification, sheet, counts, noise_seed)
     with progress(2, quiet=options.json) as begin:
         begin("simulating")
-        recording = circlepoint.simulate(
-            chain,
-            up_sensor,
-            sensor,
-            plan.trajectory(),
-            circlepoint.SimulationOptions(
-                noise_std=specification.noise_std,
-                range=specification.range,
-                encoder_counts_per_revolution=np.array([counts or 0.0 for counts in arm.encoder_counts or ()]),
-                seed=circlepoint.derive_seed(options.seed, 1),
-            ),
-        )
+        recording = circlepoint.simulate(chain, up_sensor, actual, plan.trajectory(), simulation)
         begin("writing")
-        truth = truth_document(arm, chain, up_sensor.tolist(), sensor, options.seed)
+        truth = truth_document(arm, chain, up_sensor.tolist(), sensor, options.seed, sheet=sheet)
         text = json.dumps(truth, indent=1, allow_nan=False) + "\n"
         truth_path = options.out.with_name(f"{recording_stem(options.out)}.truth.json")
         options.out.parent.mkdir(parents=True, exist_ok=True)

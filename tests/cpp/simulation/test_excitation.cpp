@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,6 +66,23 @@ TEST(Excitation, MultiJointMotionStaysWithinItsAmplitudeAndMovesEveryJoint) {
       EXPECT_GT(away.col(j).cwiseAbs().maxCoeff(), 0.3 * amplitude[j]);
     }
   }
+}
+
+TEST(Excitation, AtAStepOfAccelerationTheTrapezoidIntegralIsTheVelocity) {
+  const double rate = 100.0;
+  const JointTrajectory motion = joint_trajectory(start, {Dwell{0.5}, RaisedCosine{0, 2.6, 0.5, 2.0}, Dwell{0.5}}, rate);
+  double integral = 0.0;
+  double worst = 0.0;
+  for (Index i = 1; i < motion.samples(); ++i) {
+    integral += 0.5 * (motion.acceleration(i - 1, 0) + motion.acceleration(i, 0)) / rate;
+    if (i != 50 && i != 250) {
+      worst = std::max(worst, std::abs(integral - motion.velocity(i, 0)));
+    }
+  }
+  const double peak = 1.3 * std::pow(std::numbers::pi, 2);
+  EXPECT_NEAR(motion.acceleration(50, 0), 0.5 * peak, 1e-9);
+  EXPECT_NEAR(motion.acceleration(250, 0), 0.5 * peak, 1e-9);
+  EXPECT_LT(worst, 0.01 * peak / rate);
 }
 
 TEST(Excitation, AFractionalNumberOfCyclesIsRefused) {

@@ -4,8 +4,9 @@
 // A motion is a sequence of pieces in continuous time, each beginning where the one before ended; it is sampled at
 // t_k = k / sample_rate, so a piece's duration need not be a multiple of the sampling period. Derivatives are those of
 // the formulas, never differences. Position and velocity are continuous everywhere; acceleration is too, except at both
-// ends of a raised cosine (eq. (11) of Canepa 1994 starts and stops with its largest acceleration). At such an instant
-// the sample belongs to the piece that begins.
+// ends of a raised cosine (eq. (11) of Canepa 1994 starts and stops with its largest acceleration). A sample at such an
+// instant has the mean of the accelerations on both sides, so that its trapezoid integral is the velocity (one side alone
+// would cost half a sample of it); the first and the last sample of all have one side only, and take it.
 //
 // InvalidInput: durations or rates that are not positive, joints that do not exist, values that are not finite, a
 // raised cosine of a fractional number of cycles (it would not end at rest).

@@ -21,16 +21,24 @@
 // angular velocity do not see it. The direction of motion keeps its sign through a turning point, so that the sinusoids
 // keep their phase.
 //
-// The same seed gives the same bytes; noise and vibration have streams of their own, so that switching one on does not
-// change the other.
+// Joints held by a loop follow q late and ring (simulation/held_joints): that motion then takes the place of q.
+//
+// With `acquisition`, the trajectory is given at the analogue rate, and what lies between the sensor and the log is
+// simulated too (simulation/acquisition); noise_std is then white noise per recorded sample from the surroundings.
+//
+// The same seed gives the same bytes; every kind of noise has a stream of its own, so that switching one on does not
+// change another.
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "circlepoint/chain/screw_chain.hpp"
 #include "circlepoint/recording/recording.hpp"
 #include "circlepoint/sensor/accelerometer.hpp"
+#include "circlepoint/simulation/acquisition.hpp"
 #include "circlepoint/simulation/excitation.hpp"
+#include "circlepoint/simulation/held_joints.hpp"
 
 namespace circlepoint {
 
@@ -51,6 +59,10 @@ struct SimulationOptions {
   Eigen::VectorXd compliance{};  ///< (n) rad per m^2/s^2 (prismatic: m per m/s^2); empty: rigid
   VibrationOptions vibration{};
   std::uint64_t seed = 0;
+  HeldJoints held_joints{};
+  std::optional<TemperatureProfile> temperature{};   ///< of the sensor, recorded; none: at its reference, not recorded
+  std::optional<double> angular_velocity_noise_std{};  ///< rad/s, white, per sample of a gyroscope; none: no gyroscope
+  std::optional<AcquisitionOptions> acquisition{};
 };
 
 /// The recording of a trajectory. `up_gravity_sensor` (m/s^2) is what an ideal sensor reads at rest at the chain's
