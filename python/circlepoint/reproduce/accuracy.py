@@ -64,10 +64,9 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
             id="sensor_errors",
             title="Which error of the sensor makes the figures of section 4",
             explanation="Median over groups of ten trials of the root mean square error, and the interval of 95 % of "
-            "the groups; the axis in mrad, the centres in mm. The axis owes its error to the scale factors, method "
-            "1 and "
-            "the least squares of method 2 to the tolerance of the percussion distance, the printed method 2 to its "
-            "means.",
+            "the groups; the axis in mrad, the centres in mm. The axis owes its error to the scale factors, method 1 "
+            "and the least squares of method 2 to the tolerance of the percussion distance, the printed method 2 to "
+            "its means.",
             columns=("axis, plane fit", *_titles()),
             rows=tuple(rows),
             unit="mrad, mm",
@@ -77,13 +76,13 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
     quiet, scales, distance = rows[0][1], rows[1][1], rows[4][1]
     reasons = {
         "axis": (
-            f"Noise alone would give {_milli(quiet[0])} mrad rms, with the scale factors {_milli(scales[0])}: they are "
-            "the cause. The best method estimates them from the magnitude of gravity over all joints' dwells."
+            f"Noise alone would give {_milli(quiet[0])} mrad rms, with the scale factors {_milli(scales[0])}: they "
+            "are the cause. The best method estimates them from the magnitude of gravity over all joints' dwells."
         ),
         "centre_position": (
             f"Noise and vibration alone give {_milli(quiet[1])} mm rms, with the tolerance of the percussion distance "
-            f"{_milli(distance[1])}: the method takes the nominal 18.2 mm. Vibration below 10 Hz adds to "
-            "it (table “What the paper leaves open”)."
+            f"{_milli(distance[1])}: the method takes the nominal 18.2 mm. Vibration below 10 Hz adds to it (table "
+            "“What the paper leaves open”)."
         ),
         "centre_velocity": (
             f"The printed mean of |v|/|w| over nearly all samples costs most of it: {_milli(quiet[2])} mm rms with "
@@ -117,9 +116,8 @@ def threshold_table(run: Runner, trials: int, found: Findings) -> None:
             id="threshold",
             title="Method 2 as printed: where v is “different from zero”",
             explanation="r is the mean of |v|/|w|. Near the turning points both vanish and the ratio is noise: the "
-            "printed "
-            "figures (3 mm, 2 mm) come out when nearly every sample counts, and better ones when slow samples are "
-            "left out.",
+            "printed figures (3 mm, 2 mm) come out when nearly every sample counts, and better ones when slow "
+            "samples are left out.",
             columns=("max of ten", "rms of ten"),
             rows=tuple(rows),
             unit="mm",
@@ -147,9 +145,8 @@ def iteration_table(run: Runner, trials: int, found: Findings) -> None:
             id="iterations",
             title="Corrections for the centre of percussion, method 1",
             explanation="The rate is |v|/r of the previous estimate, so the error shrinks by about d/r times a "
-            "factor of the "
-            "motion at each correction. Two suffice at a metre, the workspace the paper speaks of; below 0.4 m two "
-            "leave an error of centimetres, which is the size measured in section 5.",
+            "factor of the motion at each correction. Two suffice at a metre, the workspace the paper speaks of; "
+            "below 0.4 m two leave an error of centimetres, which is the size measured in section 5.",
             columns=tuple(f"{low:g} to {high:g} m" for low, high in bands),
             rows=tuple(
                 ("to convergence" if count is None else str(count), tuple(column[i] for column in columns))
@@ -166,8 +163,7 @@ def iteration_table(run: Runner, trials: int, found: Findings) -> None:
         trials,
         f"{amounts[-1]:.0f} at 0.8 to 1 m, {amounts[0]:.0f} at 0.25 to 0.4 m (until within a quarter of the converged "
         "error): what is left shrinks with d/r at each correction. Method 2 takes the rate from the encoder and "
-        "needs one; "
-        "the regression has the distance in its model.",
+        "needs one; the regression has the distance in its model.",
     )
 
 
@@ -193,8 +189,8 @@ def bound(run: Runner, trials: int, found: Findings) -> None:
     broken = int(np.sum(errors[:, 0] > limit))
     arrived = errors[:, 2] > 0.0
     text = (
-        f"(0.5 + 5) mm/s² / g. The printed number takes one standard deviation for the random part; three, as the text "
-        f"says, give {1e3 * three:.2f} mrad. Largest axis error in {count} trials: {1e3 * largest:.2f} mrad, "
+        "(0.5 + 5) mm/s² / g. The printed number takes one standard deviation for the random part; three, as the "
+        f"text says, give {1e3 * three:.2f} mrad. Largest axis error in {count} trials: {1e3 * largest:.2f} mrad, "
         f"{broken} above the bound."
     )
     found.ours["bound_angle"] = Ours(exactly(limit), exactly(largest), count, text)
@@ -209,10 +205,9 @@ def bound(run: Runner, trials: int, found: Findings) -> None:
         Table(
             id="chart",
             title="The axis in the paper's parameters and on the sphere",
-            explanation="The chart l, m, sqrt(1 - l² - m²) (constraint corrected) reaches the same minimum where "
-            "it arrives "
-            f"at all: in {100 * share:.1f} % of {count} trials from its centre. The others have their axis near the "
-            "sensor's x-y plane, where the chart ends. The sphere has no such place.",
+            explanation="The chart l, m, sqrt(1 - l² - m²) (constraint corrected) reaches the same minimum where it "
+            f"arrives at all: in {100 * share:.1f} % of {count} trials from its centre. The others have their axis "
+            "near the sensor's x-y plane, where the chart ends. The sphere has no such place.",
             columns=("max of ten", "rms of ten"),
             rows=(
                 ("sphere, closed form", (spread.max_of_ten, spread.rms_of_ten)),

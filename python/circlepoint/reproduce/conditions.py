@@ -21,6 +21,7 @@ TANGENTIAL, ORTHOGONAL = 0.1, 0.01  # m/s^2, amplitudes of vibration, sec. 4
 WORST_ERROR = 5e-3  # m/s^2, p of sec. 4
 PERCUSSION_DISTANCE = 0.0182  # m, sec. 3.1
 CUTOFF = 10.0  # Hz, sec. 5
+HELD_FREQUENCY = 5.0  # Hz. Assumed; the 3 s of settling are the paper's
 REPEATS = 10  # sec. 4 and 5
 
 
@@ -42,6 +43,8 @@ class Conditions:
     periods: int = 1  # of eq. (11). Assumed: the paper does not say
     encoder_counts: float = ENCODER_COUNTS  # 0: exact
     distance: tuple[float, float] = (0.3, 0.7)  # m, sensor from axis. Assumed: the paper says less than 0.4 m, sec. 5
+    acquisition: bool = False  # the chain of sec. 3: filters, skew, encoders at 1 kHz, converter; noise by band
+    held_frequency: float = 0.0  # Hz, of the joints' PD loops; 0: they obey
     bias_change: float = 0.0  # m/s^2, between the static and the dynamic test, in a random direction
 
     @property
@@ -61,6 +64,11 @@ LOW_RATE = 100.0  # Hz
 CABLE_NOISE_STD = 0.1  # m/s^2, of a sample
 SHORT = (0.3, 0.4)  # m, sec. 5: less than 0.4 m
 """The measured case; amounts assumed: the paper names the causes and gives no more than the distance."""
+
+
+def acquired(conditions: Conditions) -> Conditions:
+    """Return the conditions with the acquisition chain of section 3 and joints held by PD loops."""
+    return replace(conditions, acquisition=True, held_frequency=HELD_FREQUENCY)
 
 
 def as_measured(conditions: Conditions) -> Conditions:

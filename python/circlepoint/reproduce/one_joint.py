@@ -86,7 +86,10 @@ def static_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array,
 def dynamic_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array, Array]:
     """Return the encoder (M,) and the readings (M, 3) of eq. (11)."""
     thinning = max(1, math.ceil(_simulated_rate / conditions.rate))
-    motion = circlepoint.joint_trajectory(np.zeros(1), [raised_cosine(conditions)], conditions.rate * thinning)
+    rate = conditions.rate * thinning
+    chain = _acquisition(conditions) if conditions.acquisition else None
+    analogue = rate * (chain.oversampling if chain else 1)
+    motion = circlepoint.joint_trajectory(np.zeros(1), [raised_cosine(conditions)], analogue)
     options = circlepoint.SimulationOptions(
         noise_std=math.hypot(conditions.dynamic_noise_std, conditions.cable_noise_std),
         encoder_counts_per_revolution=np.array([conditions.encoder_counts]),
@@ -96,6 +99,8 @@ def dynamic_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array
             frequency_min=conditions.vibration_band[0],
             frequency_max=conditions.vibration_band[1],
         ),
+        held_joints=circlepoint.HeldJoints(natural_frequency=np.array([conditions.held_frequency])),
+        acquisition=chain,
         seed=circlepoint.derive_seed(seed, 1),
     )
     log = circlepoint.simulate(joint.chain(), joint.up_sensor, joint.sensor, motion, options)
@@ -105,6 +110,24 @@ def dynamic_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array
         force = force + conditions.bias_change * change
     moving = slice(0, -1, thinning)  # the last instant is the first of rest
     return np.ascontiguousarray(log.joint_positions[moving, 0]), np.ascontiguousarray(force[moving])
+
+
+def _acquisition(conditions: Conditions) -> circlepoint.AcquisitionOptions:
+    """Return the chain of section 3 behind this sensor; its readings are corrected already."""
+    chain = circlepoint.paper_acquisition()
+    return circlepoint.AcquisitionOptions(
+        oversampling=chain.oversampling,
+        noise_bands=conditions.sensor.noise_bands,
+        response_bands=conditions.sensor.response_bands,
+        resolution=conditions.sensor.resolution,
+        signal_cutoff=chain.signal_cutoff,
+        filter_order=chain.filter_order,
+        channel_skew=chain.channel_skew,
+        converter_bits=chain.converter_bits,
+        converter_range=chain.converter_range,
+        converter_gain=chain.converter_gain,
+        encoder_rate=chain.encoder_rate,
+    )
 
 
 def raised_cosine(conditions: Conditions) -> circlepoint.RaisedCosine:

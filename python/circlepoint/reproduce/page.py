@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from circlepoint.reproduce.study import Reproduction
 
 _policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
-_style = "table{white-space:normal}.wrap td,.wrap th{white-space:normal}.wrap td.name{min-width:16ch}dd{max-width:80ch}"
+_style = "tbody th{white-space:normal;min-width:22ch}tbody th small{white-space:nowrap}dt{flex-basis:260px}"
 _colours = {"agrees": "good", "smaller": "warn", "larger": "warn", "no number": "soft"}
 
 
@@ -129,4 +129,4 @@ def _bold(text: str) -> str:
 
 def _markdown_table(titles: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
     head = ["| " + " | ".join(titles) + " |", "|" + "---|" * len(titles)]
-    return head + ["| " + " | ".join(row) + " |" for row in rows]
+    return head + ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]

@@ -25,13 +25,11 @@ VERDICTS = {
 ASSUMED = (
     (
         "Arm: seven joints, link lengths assumed (arms/sarcos.yaml); built 1 mm and 3 mrad off its drawing, on a "
-        "base of "
-        "random tilt with every axis at least 30 degrees off gravity."
+        "base of random tilt with every axis at least 30 degrees off gravity."
     ),
     (
         "Handle: 0.5 m as stated, across the last joint's axis (assumed). End stops, the reference configuration: "
-        "every "
-        "joint at -75 degrees (assumed)."
+        "every joint at -75 degrees (assumed)."
     ),
     "Single-joint trials: axis, gravity and lever in random directions, sensor 0.3 to 0.7 m from the axis (assumed).",
     "Sensor: individuals drawn from the QA700 preset, a limit of the data sheet taken as one standard deviation.",
@@ -130,6 +128,5 @@ def made(reproduction: Reproduction) -> str:
     """Return how the study was made."""
     return (
         f"{reproduction.trials} independent trials of every case (the paper had ten). In brackets: the interval that "
-        "95 % of "
-        "groups of ten trials fall in, unless said otherwise."
+        "95 % of groups of ten trials fall in, unless said otherwise."
     )

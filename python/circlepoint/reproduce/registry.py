@@ -175,7 +175,7 @@ STATED = (
         "rad",
         "mrad",
         1e3,
-        "largest distance of ten repeats from their mean, axis 2; left: the sensor's temperature wanders by 1 °C",
+        "largest distance of ten repeats from their mean, axis 2; left: the sensor's temperature wanders by 3 °C",
     ),
     Stated(
         "repeat_std",

@@ -62,9 +62,8 @@ def averaging(run: Runner, trials: int, found: Findings) -> None:
         white,
         trials,
         f"White noise of 0.5 mm/s² would average to {1e3 * white.median:.3f} mm/s² (right-hand value). The paper's "
-        "0.1 says that "
-        f"the environment is not white: noise of a bandwidth of {_environment_band:g} Hz averages to it, the arm's own "
-        "oscillation.",
+        f"0.1 says that the environment is not white: noise of a bandwidth of {_environment_band:g} Hz averages to "
+        "it, the arm's own oscillation.",
     )
 
 
@@ -113,13 +112,10 @@ def spectrum(run: Runner, trials: int, found: Findings) -> None:
         None,
         count,
         (
-            f"The last harmonic of theta(t) above noise and vibration is at {last.low:g} to {last.high:g} Hz, and "
-            "all but a "
-            f"millionth of the signal's power lies below {most:g} Hz. That is what must pass; 10 Hz keeps it with "
-            "room for "
-            "the filter's roll-off (below 5 Hz both centre methods lose, figure “Centre error over each condition”) "
-            "and "
-            "still ends below the vibration."
+            f"The last harmonic of theta(t) above noise and vibration is at {last.low:g} to {last.high:g} Hz, and all "
+            f"but a millionth of the signal's power lies below {most:g} Hz. That is what must pass; 10 Hz keeps it "
+            "with room for the filter's roll-off (below 5 Hz both centre methods lose, figure “Centre error over "
+            "each condition”) and still ends below the vibration."
         ),
     )
 
@@ -166,8 +162,7 @@ def tracking(run: Runner, trials: int, found: Findings) -> None:
         end_known,
         trials,
         "Distance of the reconstructed from the true position after 2 s, one period (right: the same with a sensor "
-        "that has "
-        "nothing but noise and bias). The paper draws the path and states no number.",
+        "that has nothing but noise and bias). The paper draws the path and states no number.",
     )
     found.signals["tracking"] = {
         "time": np.arange(errors.shape[1]) / conditions.rate,

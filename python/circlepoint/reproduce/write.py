@@ -28,7 +28,6 @@ def document(reproduction: Reproduction) -> dict[str, Any]:
         "schema": SCHEMA,
         "generator": {"name": "circlepoint", "version": circlepoint.__version__},
         "trials": reproduction.trials,
-        "seconds": round(reproduction.seconds, 1),
         "statements": [
             {
                 "id": stated.id,
