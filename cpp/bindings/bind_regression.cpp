@@ -43,23 +43,31 @@ References
 ----------
 Canepa, Hollerbach and Boelen (1994), section 2.1, eq. (3); docs/method, section 2.
 )");
+  py::native_enum<AxisChart>(m, "AxisChart", "enum.Enum", "Which parameters the iteration moves an axis in.")
+      .value("sphere", AxisChart::sphere)
+      .value("hemisphere", AxisChart::hemisphere)
+      .finalize();
   m.def(
       "fit_axis_direction_robust",
-      [](const Eigen::Ref<const Samples3>& specific_force, double loss_scale, int max_iterations) {
-        return fit_axis_direction_robust(specific_force, {loss_scale, max_iterations});
+      [](const Eigen::Ref<const Samples3>& specific_force, double loss_scale, int max_iterations, AxisChart chart) {
+        return fit_axis_direction_robust(specific_force, {loss_scale, max_iterations, chart});
       },
       py::arg("specific_force").noconvert(), py::arg("loss_scale") = RobustOptions{}.loss_scale,
-      py::arg("max_iterations") = RobustOptions{}.max_iterations, release_gil(), R"(
-Axis direction with a Cauchy loss: poses disturbed by a knock are down-weighted.
+      py::arg("max_iterations") = RobustOptions{}.max_iterations,
+      py::arg_v("chart", RobustOptions{}.chart, "AxisChart.sphere"), release_gil(), R"(
+Axis direction by iteration, with a Cauchy loss: poses disturbed by a knock are down-weighted.
 
 Parameters
 ----------
 specific_force : (N, 3) float64, C order
     Mean reading of each static pose, m/s^2.
 loss_scale : float
-    Residuals beyond this many robust standard deviations lose weight.
+    Residuals beyond this many robust standard deviations lose weight; infinity: plain least squares.
 max_iterations : int
     Of the reweighting.
+chart : AxisChart
+    ``sphere``: the tangent plane. ``hemisphere``: the paper's l, m with n = sqrt(1 - l^2 - m^2), started at l = m = 0;
+    an axis nearly in the sensor's x-y plane is reached slowly or not at all.
 
 Returns
 -------
@@ -68,7 +76,11 @@ AxisDirectionFit
 Raises
 ------
 InvalidInput, NotIdentifiable
-    As `fit_axis_direction`.
+    As `fit_axis_direction`; InvalidInput also when `loss_scale` is not positive.
+
+References
+----------
+Canepa, Hollerbach and Boelen (1994), section 4, with its constraint corrected; docs/method, errata.
 )");
   m.def("orient_axis", &orient_axis, py::arg("direction"), py::arg("angle").noconvert(), py::arg("specific_force").noconvert(),
         release_gil(), R"(

@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -1175,6 +1175,12 @@ class AxisDirectionFit:
         """
         (N,) final weights, 1 for inliers
         """
+class AxisChart(enum.Enum):
+    """
+    Which parameters the iteration moves an axis in.
+    """
+    hemisphere = ...
+    sphere = ...
 class GravityModel:
     """
     Static reading against joint angle: A + B cos + C sin.
@@ -2510,18 +2516,21 @@ def fit_axis_direction(specific_force: typing.Annotated[numpy.typing.NDArray[num
     ----------
     Canepa, Hollerbach and Boelen (1994), section 2.1, eq. (3); docs/method, section 2.
     """
-def fit_axis_direction_robust(specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], loss_scale: typing.SupportsFloat | typing.SupportsIndex = 3.0, max_iterations: typing.SupportsInt | typing.SupportsIndex = 50) -> AxisDirectionFit:
+def fit_axis_direction_robust(specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], loss_scale: typing.SupportsFloat | typing.SupportsIndex = 3.0, max_iterations: typing.SupportsInt | typing.SupportsIndex = 50, chart: AxisChart = ...) -> AxisDirectionFit:
     """
-    Axis direction with a Cauchy loss: poses disturbed by a knock are down-weighted.
+    Axis direction by iteration, with a Cauchy loss: poses disturbed by a knock are down-weighted.
 
     Parameters
     ----------
     specific_force : (N, 3) float64, C order
         Mean reading of each static pose, m/s^2.
     loss_scale : float
-        Residuals beyond this many robust standard deviations lose weight.
+        Residuals beyond this many robust standard deviations lose weight; infinity: plain least squares.
     max_iterations : int
         Of the reweighting.
+    chart : AxisChart
+        ``sphere``: the tangent plane. ``hemisphere``: the paper's l, m with n = sqrt(1 - l^2 - m^2), started at l = m = 0;
+        an axis nearly in the sensor's x-y plane is reached slowly or not at all.
 
     Returns
     -------
@@ -2530,7 +2539,11 @@ def fit_axis_direction_robust(specific_force: typing.Annotated[numpy.typing.NDAr
     Raises
     ------
     InvalidInput, NotIdentifiable
-        As `fit_axis_direction`.
+        As `fit_axis_direction`; InvalidInput also when `loss_scale` is not positive.
+
+    References
+    ----------
+    Canepa, Hollerbach and Boelen (1994), section 4, with its constraint corrected; docs/method, errata.
     """
 def fit_circle(points: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]", "flags.c_contiguous"]) -> CircleFit:
     """

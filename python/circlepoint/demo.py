@@ -38,7 +38,12 @@ UP_BASE = (0.45, -0.35, 0.82)  # direction of up in the tilted base's frame; its
 YIELD = 1e-4  # rad per m^2/s^2: a joint gives way by some milliradians under the arm's weight (assumed)
 
 
-def built_arm(arm: Arm, reference_configuration: NDArray[np.float64], seed: int) -> circlepoint.ScrewChain:
+def built_arm(
+    arm: Arm,
+    reference_configuration: NDArray[np.float64],
+    seed: int,
+    handle: tuple[float, float, float] = HANDLE,
+) -> circlepoint.ScrewChain:
     """Return the axes of an arm built a little off its description, in the sensor frame at a reference configuration.
 
     Parameters
@@ -49,6 +54,8 @@ def built_arm(arm: Arm, reference_configuration: NDArray[np.float64], seed: int)
         rad.
     seed : int
         Of the deviations.
+    handle : tuple of float
+        m, the sensor seen from the flange.
     """
     if arm.dh is None:
         raise circlepoint.InvalidInput(f"arm {arm.name!r} has no nominal `dh` to build it from; add its rows")
@@ -60,7 +67,7 @@ def built_arm(arm: Arm, reference_configuration: NDArray[np.float64], seed: int)
         rows.append(circlepoint.DhRow(a, alpha, d, theta))
     tool = np.eye(4)
     tool[:3, :3] = circlepoint.rotation_exp(np.array(HANDLE_TURN))
-    tool[:3, 3] = HANDLE
+    tool[:3, 3] = handle
     chain = circlepoint.StandardDhChain(rows, joint_types(arm), tool=tool)
     return circlepoint.to_screws(chain, reference_configuration, circlepoint.BaseFrame.sensor_at_reference)
 

@@ -85,6 +85,52 @@ struct PlaneResidual {
   }
 };
 
+// The same in the paper's chart; a step out of it is refused.
+struct HemisphereResidual {
+  PlaneResidual plane;
+
+  template <typename T>
+  bool operator()(const T* lm, const T* c, T* residuals) const {
+    using std::sqrt;
+    const T square = 1.0 - lm[0] * lm[0] - lm[1] * lm[1];
+    if (!(square > 0.0)) {
+      return false;
+    }
+    const T z[3] = {lm[0], lm[1], sqrt(square)};
+    return plane(z, c, residuals);
+  }
+};
+
+// Moves z and c to the weighted minimum; false where the solver stopped short of it.
+bool solve(const Eigen::Ref<const Samples3>& f, const Eigen::VectorXd& root_weights, AxisChart chart, Eigen::Vector3d& z,
+           double& c) {
+  const PlaneResidual plane{f, root_weights};
+  const int poses = static_cast<int>(f.rows());
+  Eigen::Vector2d lm = z.head<2>();
+  ceres::Problem problem;
+  if (chart == AxisChart::sphere) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<PlaneResidual, ceres::DYNAMIC, 3, 1>(new PlaneResidual(plane), poses), nullptr,
+        z.data(), &c);
+    problem.SetManifold(z.data(), new ceres::SphereManifold<3>);
+  } else {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<HemisphereResidual, ceres::DYNAMIC, 2, 1>(new HemisphereResidual{plane}, poses),
+        nullptr, lm.data(), &c);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.function_tolerance = 1e-15;
+  options.parameter_tolerance = 1e-14;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (chart == AxisChart::hemisphere) {
+    z << lm, std::sqrt(std::max(0.0, 1.0 - lm.squaredNorm()));
+  }
+  return summary.termination_type == ceres::CONVERGENCE;
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -103,11 +149,17 @@ AxisDirectionFit fit_axis_direction(const Eigen::Ref<const Samples3>& specific_f
 
 AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& specific_force, const RobustOptions& options) {
   validate(specific_force);
+  require(options.loss_scale > 0.0, "loss_scale is " + std::to_string(options.loss_scale) +
+                                        "; give a positive number, or infinity for plain least squares");
   const Index poses = specific_force.rows();
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(poses);
   AxisDirectionFit fit = describe(specific_force, scatter_of(specific_force, weights), weights);
   Eigen::Vector3d z = fit.direction;
   double c = fit.offset;
+  if (options.chart == AxisChart::hemisphere) {
+    z = Eigen::Vector3d::UnitZ();
+    c = specific_force.col(2).mean();
+  }
   bool converged = false;
   int iteration = 0;
   for (; iteration < options.max_iterations && !converged; ++iteration) {
@@ -123,27 +175,18 @@ AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& spe
     }
     const Eigen::VectorXd root_weights = weights.cwiseSqrt();
     const Eigen::Vector3d previous = z;
-    ceres::Problem problem;
-    auto* cost = new ceres::AutoDiffCostFunction<PlaneResidual, ceres::DYNAMIC, 3, 1>(
-        new PlaneResidual{specific_force, root_weights}, static_cast<int>(poses));
-    problem.AddResidualBlock(cost, nullptr, z.data(), &c);
-    problem.SetManifold(z.data(), new ceres::SphereManifold<3>);
-    ceres::Solver::Options solver_options;
-    solver_options.linear_solver_type = ceres::DENSE_QR;
-    solver_options.logging_type = ceres::SILENT;
-    solver_options.function_tolerance = 1e-15;
-    solver_options.parameter_tolerance = 1e-14;
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver_options, &problem, &summary);
-    converged = (z - previous).norm() < 1e-10;
+    const bool solved = solve(specific_force, root_weights, options.chart, z, c);
+    converged = solved && (z - previous).norm() < 1e-10;
   }
   const Scatter scatter = scatter_of(specific_force, weights);
   require_plane(scatter, poses);
   fit = describe(specific_force, scatter, weights);
+  // At the chart's edge the solver stops without having arrived; the scatter of the same weights knows the minimum.
+  const bool arrived = z.cross(fit.direction).norm() < 1e-6;
   fit.direction = z.dot(fit.direction) >= 0.0 ? z : Eigen::Vector3d(-z);
   fit.offset = z.dot(fit.direction) >= 0.0 ? c : -c;
   fit.iterations = iteration;
-  fit.converged = converged;
+  fit.converged = converged && arrived;
   return fit;
 }
 

@@ -9,7 +9,7 @@ import traceback
 from typing import TYPE_CHECKING
 
 import circlepoint
-from circlepoint.cli import calibrate, check, demo, export, simulate
+from circlepoint.cli import calibrate, check, demo, export, reproduce, simulate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -94,7 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"circlepoint {circlepoint.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (demo, calibrate, check, simulate, export):
+    for command in (demo, calibrate, check, simulate, export, reproduce):
         command.register(commands, common)
     return parser
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/geometry/rigid_transform.hpp"
@@ -84,6 +85,48 @@ TEST(AxisDirection, RobustFitOfCleanPosesIsTheClosedForm) {
   EXPECT_LT(angle_between_axes(plain.direction, robust.direction), 0.5 * std::sqrt(plain.covariance.trace()));
   EXPECT_NEAR(std::abs(robust.offset), std::abs(plain.offset), 1e-3);
   EXPECT_NEAR(robust.covariance.trace() / plain.covariance.trace(), 1.0, 0.3);
+}
+
+TEST(AxisDirection, ThePapersChartFindsTheMinimumOfTheSphereAwayFromItsEdge) {
+  Random random(8);
+  const RobustOptions chart{std::numeric_limits<double>::infinity(), 50, AxisChart::hemisphere};
+  int compared = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const OneJoint joint = support::random_joint(random);
+    if (std::abs(joint.axis.z()) < 0.3) {
+      continue;
+    }
+    ++compared;
+    Samples3 poses = support::readings(joint, support::still_poses(60, 0.0, 2.5));
+    support::add_noise(poses, 5e-4, random);
+    const AxisDirectionFit fit = fit_axis_direction_robust(poses, chart);
+    EXPECT_TRUE(fit.converged);
+    EXPECT_GT(fit.direction.z(), 0.0);
+    EXPECT_LT(angle_between_axes(fit.direction, fit_axis_direction(poses).direction), 1e-7);
+  }
+  EXPECT_GT(compared, 15);
+}
+
+TEST(AxisDirection, ThePapersChartSaysSoWhereItDoesNotArrive) {
+  Random random(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    OneJoint joint = support::random_joint(random);
+    joint.axis.z() = 0.0;
+    joint.axis.normalize();
+    Samples3 poses = support::readings(joint, support::still_poses(60, 0.0, 2.5));
+    support::add_noise(poses, 5e-4, random);
+    const AxisDirectionFit fit =
+        fit_axis_direction_robust(poses, {std::numeric_limits<double>::infinity(), 50, AxisChart::hemisphere});
+    const double angle = angle_between_axes(fit.direction, fit_axis_direction(poses).direction);
+    EXPECT_TRUE(!fit.converged || angle < 1e-3) << angle;
+  }
+}
+
+TEST(AxisDirection, ALossScaleMustBePositive) {
+  Random random(10);
+  const Samples3 poses = support::readings(support::random_joint(random), support::still_poses(9, 0.0, 2.0));
+  EXPECT_THROW(fit_axis_direction_robust(poses, {0.0, 50}), InvalidInput);
+  EXPECT_THROW(fit_axis_direction_robust(poses, {std::nan(""), 50}), InvalidInput);
 }
 
 TEST(AxisDirection, AxisParallelToGravityIsNotIdentifiable) {

@@ -3,8 +3,12 @@
 //
 // While one joint turns and the rest stand still, the component of the static specific force along the joint axis is
 // constant: z . f_i = c (eq. 3). For isotropic noise the least-squares z over the unit sphere is the smallest eigenvector of
-// the scatter of f_i: closed form, no chart, no sign trap (the paper's chart is printed with a sign error, docs/method).
-// With the joint angles known the rotation's sense fixes the sign of z.
+// the scatter of f_i: closed form, no chart, no sign trap. With the joint angles known the rotation's sense fixes the sign
+// of z.
+//
+// The paper's own parameters are a chart of half the sphere: z = (l, m, sqrt(1 - l^2 - m^2)), printed with a sign error
+// (docs/method), started here at its centre l = m = 0. Its derivative is unbounded where n = 0: an axis that lies nearly in
+// the sensor's x-y plane is reached slowly or not at all (`converged` false), which the sphere does not notice.
 //
 // Fails (NotIdentifiable) when the samples do not spread in a plane: the axis is parallel to gravity, or the joint hardly
 // turned. All samples then coincide up to noise and any z fits.
@@ -26,17 +30,25 @@ struct AxisDirectionFit {
   bool converged = true;
 };
 
+/// Which parameters the iteration moves z in.
+enum class AxisChart {
+  sphere,      ///< the tangent plane: the same everywhere
+  hemisphere,  ///< the paper's l, m with n = sqrt(1 - l^2 - m^2) > 0
+};
+
 struct RobustOptions {
-  double loss_scale = 3.0;  ///< residuals beyond this many robust standard deviations are down-weighted (Cauchy loss)
+  double loss_scale = 3.0;  ///< residuals beyond this many robust standard deviations are down-weighted (Cauchy loss);
+                            ///< infinity: plain least squares, the paper's objective
   int max_iterations = 50;
+  AxisChart chart = AxisChart::sphere;
 };
 
 /// Closed form. specific_force: (N, 3) m/s^2, one row a pose. Raises InvalidInput for fewer than 3 poses and NotIdentifiable
 /// when the poses do not spread over a plane.
 AxisDirectionFit fit_axis_direction(const Eigen::Ref<const Samples3>& specific_force);
 
-/// Robust refinement on the sphere: Cauchy loss scaled by the median absolute residual; covariance from the weighted
-/// information. Same arguments and errors.
+/// By iteration: Cauchy loss scaled by the median absolute residual; covariance from the weighted information. Same
+/// arguments and errors, and InvalidInput for a loss scale that is not positive.
 AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& specific_force, const RobustOptions& options = {});
 
 /// The direction or its opposite, whichever turns the samples the way the joint turned.
