@@ -64,27 +64,6 @@ References
 Canepa, Hollerbach, Boelen 1994, sec. 3.
 )";
 
-constexpr const char* follow_doc = R"(The motion that held joints make of a commanded one.
-
-Parameters
-----------
-commanded : JointTrajectory
-joints : HeldJoints
-
-Returns
--------
-JointTrajectory
-
-Raises
-------
-InvalidInput
-    For another number of joints, or a frequency that is negative or too low to ring.
-
-References
-----------
-docs/method, (M22).
-)";
-
 constexpr const char* compliance_doc = R"(How far joints of a stiffness give way: `SimulationOptions.compliance`.
 
 Parameters
@@ -170,7 +149,6 @@ void bind_acquisition(py::module_& m) {
       .def_readwrite("encoder_rate", &Options::encoder_rate, "Hz; 0: at every sample")
       .def_readwrite("sheet", &Options::sheet, "what readings are corrected by, or None");
 
-  m.def("follow", &follow, py::arg("commanded"), py::arg("joints"), release_gil(), follow_doc);
   m.def("joint_compliance", &joint_compliance, py::arg("stiffness"), py::arg("mass"), compliance_doc);
   m.def("paper_acquisition", &paper_acquisition,
         "The acquisition chain of Canepa, Hollerbach, Boelen 1994, sec. 3: 250 Hz and 1 Hz filters, channels 25 us apart, "

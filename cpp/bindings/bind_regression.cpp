@@ -1,3 +1,5 @@
+#include <pybind11/native_enum.h>
+
 #include "bindings.hpp"
 #include "circlepoint/identification/axis_direction.hpp"
 #include "circlepoint/identification/center_of_rotation.hpp"

@@ -63,6 +63,27 @@ InvalidInput
     For no poses, or values that are not finite.
 )";
 
+constexpr const char* follow_doc = R"(The motion that held joints make of a commanded one.
+
+Parameters
+----------
+commanded : JointTrajectory
+joints : HeldJoints
+
+Returns
+-------
+JointTrajectory
+
+Raises
+------
+InvalidInput
+    For another number of joints, or a frequency that is negative or too low to ring.
+
+References
+----------
+docs/method, (M22).
+)";
+
 constexpr const char* vibration_doc = R"(Structural vibration while the arm moves: sinusoids of random phase.
 
 Parameters
@@ -223,6 +244,7 @@ void bind_excitation(py::module_& m) {
         py::arg("rest") = 0.0, release_gil(), joint_trajectory_doc);
   m.def("static_poses", &static_poses, py::arg("poses").noconvert(), py::arg("sample_rate") = 1.0, release_gil(),
         static_poses_doc);
+  m.def("follow", &follow, py::arg("commanded"), py::arg("joints"), release_gil(), follow_doc);
 }
 
 }  // namespace

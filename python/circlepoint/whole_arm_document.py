@@ -103,7 +103,7 @@ def _identifiability_entry(document: Mapping[str, Any], estimate: circlepoint.Wh
     return {
         "rank": estimate.rank,
         "parameters": len(estimate.parameters),
-        "condition_number": condition if math.isfinite(condition) and condition < 1e15 else None,  # noqa: PLR2004
+        "condition_number": condition if math.isfinite(condition) and condition < 1e15 else None,
         "unseen": document["identifiability"]["unseen"],
     }
 
