@@ -49,7 +49,7 @@ def description(arm, dh=None):
     return Arm("sliding", joints, dh, counts)
 
 
-def tests_of(arm, joints, span, frequency):
+def motions_of(arm, joints, span, frequency):
     pieces = []
     for joint in joints:
         if arm[joint] == "P":
@@ -64,7 +64,7 @@ def recorded(arm, seed=1, *, joints=None, span=0.3, frequency=0.5, exact=False, 
     """Eq. (11) of every joint, and a stepped sweep of those that turn, by an individual QA700."""
     specification = load_sensor("qa700")
     start = np.where(np.array(list(arm)) == "R", -1.2, 0.1)
-    pieces = tests_of(arm, range(len(arm)) if joints is None else joints, span, frequency)
+    pieces = motions_of(arm, range(len(arm)) if joints is None else joints, span, frequency)
     options = cp.SimulationOptions(
         noise_std=noise or (0.0 if exact else specification.noise_std),
         encoder_counts_per_revolution=np.array(description(arm).encoder_counts if counts and not exact else ()),
