@@ -10,8 +10,7 @@ from circlepoint.report.inputs import Document, is_estimated, number, predicted_
 from circlepoint.report.rounding import format_std, significant
 
 _methods = {
-    "whole-arm": "whole-arm estimate: all axes, gravity, the sensor's errors and the delay at once, by maximum likelihood",
-    "whole-arm": "whole-arm estimate: all axes, gravity and the sensor's errors in one fit",
+    "whole-arm": "whole-arm estimate: all axes, gravity, the sensor's errors and the delay by maximum likelihood",
     "position": "position method: static sweep for the axis, twice integrated acceleration for its centre",
     "velocity": "velocity method: static sweep for the axis, once integrated acceleration for its centre",
     "joint": "joint by joint: one regression for each test, other joints' yielding corrected by their encoders",
