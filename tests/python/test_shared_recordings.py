@@ -11,13 +11,15 @@ from circlepoint.calibration import calibrate
 from circlepoint.cli import main
 from circlepoint.nominal import nominal_chain
 from circlepoint.recording_io import read_recording
+from circlepoint.sensor_presets import load_sensor
 
 DEGREE = np.pi / 180
 
 
-def calibrated(folder):
+def calibrated(folder, method, sensor=None):
     arm = load_arm(folder / "arm.yaml")
-    return calibrate(read_recording([folder / "log.csv"], arm).recording, arm)
+    specification = None if sensor is None else load_sensor(sensor)
+    return calibrate(read_recording([folder / "log.csv"], arm).recording, arm, method=method, sensor=specification)
 
 
 def true_chain(folder, reference_configuration):
@@ -44,45 +46,63 @@ def line_errors(result, truth):
     )
 
 
-# Reached: 0.013 mrad and 0.011 mm, 0.31 and 0.19, 0.49 and 0.58. The requirement for a QA700 is 3 mrad and 6 mm.
+# Reached, joint: 0.013 mrad and 0.011 mm, 0.31 and 0.19, 0.49 and 0.58; required for a QA700: 3 mrad and 6 mm.
+# Reached, whole-arm: 0.006 and 0.005, 0.11 and 0.08; required: 0.04 mrad and 0.12 mm.
 @pytest.mark.parametrize(
-    ("name", "axis_bound", "line_bound"),
+    ("name", "method", "axis_bound", "line_bound"),
     [
-        ("physics-arm7-sweeps-qa700", 0.1e-3, 0.1e-3),
-        ("physics-arm6-sweeps-mems", 1e-3, 1e-3),
-        ("physics-arm7-sweeps-coarse", 2e-3, 2e-3),
+        ("physics-arm7-sweeps-qa700", "joint", 0.1e-3, 0.1e-3),
+        ("physics-arm6-sweeps-mems", "joint", 1e-3, 1e-3),
+        ("physics-arm7-sweeps-coarse", "joint", 2e-3, 2e-3),
+        ("physics-arm7-sweeps-qa700", "whole-arm", 0.04e-3, 0.03e-3),
+        ("physics-arm6-sweeps-mems", "whole-arm", 0.3e-3, 0.2e-3),
+        ("physics-arm7-free-ideal", "whole-arm", 0.04e-3, 0.03e-3),
+        ("physics-arm6-free-qa700", "whole-arm", 0.04e-3, 0.03e-3),
     ],
 )
-def test_lines_of_an_arm_swept_in_a_physics_engine_are_within_their_uncertainty(
-    shared_data, name, axis_bound, line_bound
+def test_lines_of_an_arm_of_a_physics_engine_are_within_their_uncertainty(
+    shared_data, name, method, axis_bound, line_bound
 ):
-    result = calibrated(shared_data / name)
+    result = calibrated(shared_data / name, method)
     assert result.document["complete"]
     errors = line_errors(result, true_chain(shared_data / name, result.joints.reference_configuration))
     std = np.array([np.sqrt(np.diag(estimate.axis.covariance)) for estimate in result.joints.joints])
-    assert np.abs(errors / std).max() < 4.0
+    assert np.abs(errors / std).max() < 4.5
     assert np.linalg.norm(errors[:, :2], axis=1).max() < axis_bound
     assert np.linalg.norm(errors[:, 2:], axis=1).max() < line_bound
 
 
-def test_end_points_of_an_arm_swept_in_a_physics_engine_are_within_the_predicted_spread(shared_data):
-    folder = shared_data / "physics-arm7-sweeps-qa700"
-    result = calibrated(folder)
+# Required: 0.15, 0.4 and 0.05 mm; reached 0.010, 0.17, 0.003 and 0.008.
+@pytest.mark.parametrize(
+    ("name", "method", "sensor", "bound"),
+    [
+        ("physics-arm7-sweeps-qa700", "joint", None, 0.2e-3),
+        ("physics-arm7-sweeps-qa700", "whole-arm", None, 0.05e-3),
+        ("physics-arm6-sweeps-mems", "whole-arm", "mems", 0.4e-3),
+        ("physics-arm7-free-ideal", "whole-arm", "ideal", 0.02e-3),
+        ("physics-arm6-free-qa700", "whole-arm", "qa700", 0.04e-3),
+    ],
+)
+def test_end_points_of_an_arm_of_a_physics_engine_are_within_the_predicted_spread(
+    shared_data, name, method, sensor, bound
+):
+    folder = shared_data / name
+    result = calibrated(folder, method, sensor)
     reference = result.joints.reference_configuration
     truth = true_chain(folder, reference)
-    poses = reference + np.random.default_rng(1).uniform(-np.pi, np.pi, (200, 7))
+    poses = reference + np.random.default_rng(1).uniform(-np.pi, np.pi, (200, len(reference)))
     errors = (
         circlepoint.forward_kinematics(result.chain, poses)[:, :3, 3]
         - circlepoint.forward_kinematics(truth, poses)[:, :3, 3]
     )
     rms = np.sqrt(np.mean(np.sum(errors**2, axis=1)))
     assert rms < 3.0 * result.document["end_point"]["rms"]
-    assert rms < 0.2e-3
+    assert rms < bound
 
 
 @pytest.mark.parametrize("name", ["physics-arm6-free-qa700", "physics-arm7-free-ideal"])
-def test_no_line_is_invented_where_all_joints_move_at_once(shared_data, name):
-    result = calibrated(shared_data / name)
+def test_joint_by_joint_no_line_is_invented_where_all_joints_move_at_once(shared_data, name):
+    result = calibrated(shared_data / name, "joint")
     assert not result.document["complete"]
     assert result.document["covariance"] is None
     for joint in result.document["joints"]:
@@ -91,16 +111,41 @@ def test_no_line_is_invented_where_all_joints_move_at_once(shared_data, name):
         assert "never moves alone" in joint["reason"]
 
 
-def run_two_clocks(folder, out):
+def run_two_clocks(folder, out, method):
     arguments = [str(folder / "joints.csv"), str(folder / "sensor.csv"), "--arm", str(folder / "arm.yaml")]
-    status = main(["calibrate", *arguments, "--out", str(out)])
+    status = main(["calibrate", *arguments, "--method", method, "--out", str(out)])
     return status, json.loads((out / "calibration.json").read_text())
 
 
 @pytest.fixture(scope="module")
 def real_arm(shared_data, tmp_path_factory):
-    """Exit status and document of the real arm that moved two of its joints alone."""
-    return run_two_clocks(shared_data / "real-ur5-imu-6", tmp_path_factory.mktemp("ur5") / "result")
+    """Exit status and document of the real arm that moved two of its joints alone, joint by joint."""
+    return run_two_clocks(shared_data / "real-ur5-imu-6", tmp_path_factory.mktemp("ur5") / "result", "joint")
+
+
+@pytest.fixture(scope="module")
+def whole_real_arm(shared_data, tmp_path_factory):
+    """Exit status and document of the same by the whole-arm estimate."""
+    return run_two_clocks(shared_data / "real-ur5-imu-6", tmp_path_factory.mktemp("ur5") / "result", "whole-arm")
+
+
+def test_every_axis_of_the_real_arm_lies_where_the_maker_says(whole_real_arm):
+    # The sensor's mounting is not the maker's: up to half a degree of every difference is its own.
+    status, document = whole_real_arm
+    assert status == 0
+    assert document["complete"]
+    for joint in document["joints"]:
+        assert joint["direction_std"] < 3e-3
+        assert joint["point_std"] < 5e-3
+        assert joint["nominal"]["direction_difference"] < 1.0 * DEGREE
+        assert joint["nominal"]["point_difference"] < 0.012
+
+
+def test_whole_arm_clocks_agree_with_their_alignment_by_activity(real_arm, whole_real_arm):
+    for name in ("clock_offset", "clock_rate"):
+        coarse, fine = real_arm[1]["sensor"][name], whole_real_arm[1]["sensor"][name]
+        assert fine["std"] < coarse["std"]
+        assert abs(fine["estimate"] - coarse["estimate"]) < 4 * np.hypot(fine["std"], coarse["std"])
 
 
 def test_real_arm_gives_the_joints_it_moved_alone_and_reasons_for_the_others(real_arm):
@@ -161,12 +206,13 @@ def test_real_arms_first_and_last_axis_lie_to_each_other_as_the_maker_says(share
     assert distance < 0.015
 
 
-def test_nothing_is_invented_of_a_real_arm_that_moved_all_its_joints_at_once(shared_data, tmp_path):
-    status, document = run_two_clocks(shared_data / "real-ur5-imu-8", tmp_path / "result")
+@pytest.mark.parametrize(("method", "reason"), [("joint", "never moves"), ("whole-arm", "gravity hardly turns")])
+def test_nothing_is_invented_of_a_real_arm_in_whose_hand_gravity_hardly_turns(shared_data, tmp_path, method, reason):
+    status, document = run_two_clocks(shared_data / "real-ur5-imu-8", tmp_path / "result", method)
     assert status == 1
     assert not document["complete"]
     assert document["dh"] is None
     assert document["end_point"] is None
     for joint in document["joints"]:
         assert joint["direction_sensor"] is None
-        assert "never moves" in joint["reason"]
+        assert reason in joint["reason"]

@@ -18,15 +18,17 @@ AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segme
   }
   order = std::min(order, std::max<Index>(0, longest - 1));
   Eigen::VectorXd covariance = Eigen::VectorXd::Zero(order + 1);
+  Eigen::VectorXd pairs = Eigen::VectorXd::Zero(order + 1);
   for (const Eigen::VectorXd& segment : segments) {
     for (Index lag = 0; lag <= std::min(order, segment.size() - 1); ++lag) {
+      pairs[lag] += static_cast<double>(segment.size() - lag);
       covariance[lag] += segment.head(segment.size() - lag).dot(segment.tail(segment.size() - lag));
     }
   }
   require(count > 0 && covariance[0] > 0.0 && std::isfinite(covariance[0]),
           "the segments have " + std::to_string(count) + " samples and power " + std::to_string(covariance[0]) +
               "; an autoregressive model needs finite, non-zero ones");
-  covariance /= static_cast<double>(count);
+  covariance = covariance.cwiseQuotient(pairs.cwiseMax(1.0));
 
   AutoregressiveModel model;
   model.coefficients = Eigen::MatrixXd::Zero(order + 1, order);

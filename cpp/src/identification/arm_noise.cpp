@@ -8,7 +8,7 @@
 namespace circlepoint {
 namespace {
 
-constexpr Index highest_order = 16;
+constexpr Index highest_order = 8;
 constexpr Index rows_per_coefficient = 25;
 
 MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size_t>& members, Index channels) {

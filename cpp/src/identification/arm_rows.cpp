@@ -230,7 +230,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
   rows.cutoff = cutoff;
   rows.channels = gyroscope ? 6 : 3;
   rows.middle = 0.5 * (recording.time[0] + recording.time[recording.samples() - 1]);
-  const auto step = std::max<Index>(1, static_cast<Index>(std::floor(recording.sample_rate / (3.0 * cutoff))));
+  const auto step = std::max<Index>(1, static_cast<Index>(std::floor(recording.sample_rate / (2.0 * cutoff))));
   rows.rate = recording.sample_rate / static_cast<double>(step);
   const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 4 * shortest_stretch, longest_stretch);
   for (const StaticDwell& dwell : segmentation.dwells) {

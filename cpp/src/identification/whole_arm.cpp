@@ -271,11 +271,16 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) {
 // Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
 // rests on the prior alone, or where it spans more than the linearisation.
 std::string why_vague(const JointAxis& axis, bool gravity_seen) {
-  if (!gravity_seen) {
+  const bool slides = axis.screw.type == JointType::prismatic;
+  if (!gravity_seen && !slides) {
     return "gravity hardly turns in the sensor's frame in this recording, so neither its direction nor the sensor's bias can be told "
            "from the motion; hold still at six or more orientations of the sensor well apart, 1 s each";
   }
   std::array<char, 160> text{};
+  if (slides && axis.direction_std() > vague_direction) {
+    std::snprintf(text.data(), text.size(), "its direction is known to +- %.1f mrad only", 1e3 * axis.direction_std());
+    return std::string(text.data()) + "; too little acceleration: move it faster, such as 0.5 Hz over 0.3 m for 6 s";
+  }
   if (axis.direction_std() > vague_direction || axis.point_std() > vague_point) {
     std::snprintf(text.data(), text.size(), "its line is known to +- %.1f mrad and +- %.1f mm only", 1e3 * axis.direction_std(),
                   1e3 * axis.point_std());
@@ -304,6 +309,7 @@ void record_signals(JointCalibration& joints, const Segmentation& segmentation, 
     TestFit fit;
     fit.joint = estimate.joint;
     fit.test = test;
+    fit.type = estimate.axis->screw.type;
     fit.configuration = segmentation.tests[static_cast<std::size_t>(test)].configuration;
     fit.cutoff = problem.rows.cutoff;
     fit.time.resize(rows);
@@ -452,7 +458,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const std::vector<std::string> names = parameter_names(state, problem.layout);
   const Eigen::VectorXd value = values(state, problem.layout);
   for (Index k = 0; k < problem.layout.columns; ++k) {
-    result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std::sqrt(covariance(k, k)), seen.data_std[k]});
+    result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std::sqrt(std::max(0.0, covariance(k, k))), seen.data_std[k]});
   }
   result.stretches = hold_out(problem, state, parts, covariance_information, final_residuals);
 
@@ -472,7 +478,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     JointEstimate& mine = estimate.joints[at];
     mine.axis.reset();
     if (column < 0) {
-      mine.reason = "it never moves in this recording; turn it, alone or with others";
+      if (mine.reason.empty()) {
+        mine.reason = "it hardly moves in this recording; move it, alone or with others";
+      }
       continue;
     }
     const Index count = state.axes[at].type == JointType::revolute ? 4 : 2;
@@ -504,7 +512,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   spread(problem.layout.misalignment, 6);
   spread(problem.layout.second_order, 9);
   if (problem.layout.percussion_distance >= 0) {
-    estimate.percussion_distance_std = covariance.diagonal().segment<3>(problem.layout.percussion_distance).cwiseSqrt();
+    estimate.percussion_distance_std = covariance.diagonal().segment<3>(problem.layout.percussion_distance).cwiseMax(0.0).cwiseSqrt();
   }
   estimate.converged = result.converged;
   estimate.unseen.clear();

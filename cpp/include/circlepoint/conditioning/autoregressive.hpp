@@ -4,8 +4,9 @@
 //   x_t = a_1 x_t-1 + ... + a_p x_t-p + e_t,   e white with variance s_p^2.
 //
 // Coefficients come from the sample autocovariance by the Levinson-Durbin recursion (Yule-Walker equations), pooled over
-// segments that do not touch; divided by the total count, not by the pairs, it is positive definite, so the model is stable.
-// The recursion passes through all lower orders: the first p samples of a segment are whitened by the predictors of order
+// segments that do not touch. Each lag is divided by its own number of pairs: dividing by all samples would keep it positive
+// definite, but taper it, and short segments would then seem quieter at low frequency than they are. Where a lag's estimate
+// leaves the positive definite ones the recursion ends one order lower, so the model is stable. The recursion passes through all lower orders: the first p samples of a segment are whitened by the predictors of order
 // 0 to p - 1, so whitening is exact for a stationary process from the first sample on, none is lost, and the whitened
 // segment has the Gaussian likelihood of the original.
 //
