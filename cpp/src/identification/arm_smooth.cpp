@@ -51,22 +51,26 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
   return result;
 }
 
+namespace {
+
+double range(const SmoothSpan& span, const IndexRange& moving, Index joint) {
+  const auto column = span.joints.front().position.col(joint).segment(moving.begin - span.samples.begin, moving.size());
+  return column.maxCoeff() - column.minCoeff();
+}
+
+}  // namespace
+
 std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
-  const Index begin = moving.begin - span.samples.begin;
-  const SmoothJoints& widest = span.joints.front();
-  const auto range = [&](Index j) {
-    const auto column = widest.position.col(j).segment(begin, moving.size());
-    return column.maxCoeff() - column.minCoeff();
-  };
-  if (range(joint) > few_counts * resolution[joint]) {
-    return 0;
-  }
+  return range(span, moving, joint) > few_counts * resolution[joint] ? 0 : smoothing_for_motion(span, moving, resolution);
+}
+
+std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution) {
   double frequency = 0.0;
   for (Index j = 0; j < resolution.size(); ++j) {
-    const double travel = range(j);
+    const double travel = range(span, moving, j);
     if (travel > few_counts * resolution[j]) {
-      const double fastest = widest.velocity.col(j).segment(begin, moving.size()).cwiseAbs().maxCoeff();
-      frequency = std::max(frequency, fastest / (std::numbers::pi * travel));
+      const auto velocity = span.joints.front().velocity.col(j).segment(moving.begin - span.samples.begin, moving.size());
+      frequency = std::max(frequency, velocity.cwiseAbs().maxCoeff() / (std::numbers::pi * travel));
     }
   }
   std::size_t chosen = 0;

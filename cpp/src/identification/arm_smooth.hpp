@@ -31,4 +31,7 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
 // really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
 std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
 
+// The smoothing that passes the moving joints' motion, a few times its frequency, and no more.
+std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution);
+
 }  // namespace circlepoint

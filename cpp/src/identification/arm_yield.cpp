@@ -120,7 +120,8 @@ Eigen::MatrixXd dwell_functions(const TestMotion& motion, const DwellRow& dwell)
   return (raw_functions(dwell.position.segment(motion.joint, 1).array(), zero, zero) - motion.home) * motion.combination;
 }
 
-void prepare(TestMotion& motion, const Eigen::VectorXd& home, const ArmRows& rows, const std::vector<SmoothSpan>& spans) {
+void prepare(TestMotion& motion, const Eigen::VectorXd& home, const ArmRows& rows, const std::vector<SmoothSpan>& spans,
+             const Eigen::VectorXd& resolution) {
   const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(1);
   motion.home = raw_functions(home.segment(motion.joint, 1).array(), zero, zero);
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(functions, functions);
@@ -128,9 +129,10 @@ void prepare(TestMotion& motion, const Eigen::VectorXd& home, const ArmRows& row
   for (const std::size_t i : motion.stretches) {
     const MovingStretch& stretch = rows.stretches[i];
     const SmoothSpan& span = *span_of(spans, first_sample(stretch));
-    const SmoothJoints& joints = span.joints.front();
-    const Index begin = first_sample(stretch) - span.samples.begin;
-    const Index size = end_sample(stretch) - first_sample(stretch);
+    const IndexRange mine{first_sample(stretch), end_sample(stretch)};
+    const Index begin = mine.begin - span.samples.begin;
+    const Index size = mine.size();
+    const SmoothJoints& joints = span.joints[smoothing_for_motion(span, mine, resolution)];
     const auto part = [&](const SamplesX& samples) { return samples.col(motion.joint).segment(begin, size).array(); };
     motion.phi.push_back(raw_functions(part(joints.position), part(joints.velocity), part(joints.acceleration)).rowwise() -
                          motion.home);
@@ -212,8 +214,11 @@ JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::
   for (std::size_t k = 0; k < tests.size(); ++k) {
     const CountRows& mine = counts[tests[k]];
     const Index size = mine.within_functions.cols();
-    // Within the counts: in all as much as says that the deflection is known to a count's scatter.
-    const double weight = 12.0 * static_cast<double>(size) / static_cast<double>(mine.within.size());
+    // Within the counts: in all as much as says that the deflection is known to a count's scatter; less than a count where none
+    // changes: of a range R < 1 the chance to show no change is 1 - R, so that a range of any order of magnitude between 0.01 and
+    // 1 count beforehand is 0.2 counts rms then, and the deflection 0.08.
+    const double known = mine.change.size() > 0 ? 12.0 : 1.0 / (0.08 * 0.08);
+    const double weight = known * static_cast<double>(size) / static_cast<double>(mine.within.size());
     information.block(fit.first[k], fit.first[k], size, size) += weight * mine.within_functions.transpose() * mine.within_functions;
     gradient.segment(fit.first[k], size) += weight * mine.within_functions.transpose() * mine.within;
     if (mine.change.size() == 0) {
@@ -336,7 +341,7 @@ void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation
   std::vector<HomeGroup> groups = find_groups(rows, segmentation, resolution);
   for (HomeGroup& group : groups) {
     for (TestMotion& motion : group.tests) {
-      prepare(motion, group.home, rows, spans);
+      prepare(motion, group.home, rows, spans, resolution);
     }
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const double count = resolution[joint];
