@@ -15,6 +15,9 @@ constexpr double most_yield = 50.0;        // counts, of a joint that only yield
 constexpr double weakest_function = 1e-3;  // of the basis, relative
 constexpr double finest_change = 0.05;     // counts: no count change is known better
 constexpr double worst_change = 0.35;      // counts rms: the model does not hold beyond
+// Where no joint changes its count in a whole test: of a range R < 1 the chance to show no change is 1 - R, so that a range of any
+// order of magnitude between 0.01 and 1 count beforehand is 0.2 counts rms then, and the deflection this.
+constexpr double quiet_std = 0.08;         // counts rms
 constexpr double negligible = 0.005;       // counts rms: not worth a parameter
 
 // phi of joint positions, velocities and accelerations, a row each.
@@ -153,10 +156,25 @@ struct CountRows {
   Eigen::MatrixXd change_functions;  // where the count changes
   Eigen::VectorXd change;
   Eigen::VectorXd change_size;       // counts
+  Eigen::VectorXd upward;            // 1 or 0
+  Eigen::VectorXd repeats;           // changes of the same count the same way: they repeat the model's error
   Eigen::MatrixXd within_functions;  // everywhere
   Eigen::VectorXd within;
   double change_std = 0.1;           // counts
+  double within_std = 1.0 / std::sqrt(12.0);  // counts rms
 };
+
+void count_repeats(CountRows& counts) {
+  const Index changes = counts.change.size();
+  counts.repeats = Eigen::VectorXd::Zero(changes);
+  for (Index i = 0; i < changes; ++i) {
+    for (Index k = 0; k < changes; ++k) {
+      if (std::abs(counts.change[i] - counts.change[k]) < 0.25 && counts.upward[i] == counts.upward[k]) {
+        counts.repeats[i] += 1.0;
+      }
+    }
+  }
+}
 
 void read_counts(CountRows& counts, const Eigen::MatrixXd& phi, const Eigen::Ref<const Eigen::VectorXd>& encoder, Index thinning) {
   std::vector<Index> changes;
@@ -180,15 +198,19 @@ void read_counts(CountRows& counts, const Eigen::MatrixXd& phi, const Eigen::Ref
   Eigen::MatrixXd functions_there(count, phi.cols());
   Eigen::VectorXd value(count);
   Eigen::VectorXd size(count);
+  Eigen::VectorXd upward(count);
   for (Index k = 0; k < count; ++k) {
     const Index at = changes[static_cast<std::size_t>(k)];
     functions_there.row(k) = 0.5 * (phi.row(at) + phi.row(at + 1));
     value[k] = 0.5 * (encoder[at] + encoder[at + 1]);
     size[k] = std::abs(encoder[at + 1] - encoder[at]);
+    upward[k] = encoder[at + 1] > encoder[at] ? 1.0 : 0.0;
   }
   append(counts.change_functions, counts.change, functions_there, value);
   counts.change_size.conservativeResize(counts.change.size());
   counts.change_size.tail(count) = size;
+  counts.upward.conservativeResize(counts.change.size());
+  counts.upward.tail(count) = upward;
   append(counts.within_functions, counts.within, phi(within, Eigen::all), encoder(within));
 }
 
@@ -214,18 +236,16 @@ JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::
   for (std::size_t k = 0; k < tests.size(); ++k) {
     const CountRows& mine = counts[tests[k]];
     const Index size = mine.within_functions.cols();
-    // Within the counts: in all as much as says that the deflection is known to a count's scatter; less than a count where none
-    // changes: of a range R < 1 the chance to show no change is 1 - R, so that a range of any order of magnitude between 0.01 and
-    // 1 count beforehand is 0.2 counts rms then, and the deflection 0.08.
-    const double known = mine.change.size() > 0 ? 12.0 : 1.0 / (0.08 * 0.08);
-    const double weight = known * static_cast<double>(size) / static_cast<double>(mine.within.size());
+    // Within the counts: in all as much as says that the deflection is known to within_std.
+    const double weight =
+        static_cast<double>(size) / (mine.within_std * mine.within_std * static_cast<double>(mine.within.size()));
     information.block(fit.first[k], fit.first[k], size, size) += weight * mine.within_functions.transpose() * mine.within_functions;
     gradient.segment(fit.first[k], size) += weight * mine.within_functions.transpose() * mine.within;
     if (mine.change.size() == 0) {
       continue;
     }
     const Eigen::ArrayXd variance =
-        mine.change_std * mine.change_std + (mine.change_size.array() - 1.0).max(0.0).square() / 12.0;
+        mine.repeats.array() * (mine.change_std * mine.change_std + (mine.change_size.array() - 1.0).max(0.0).square() / 12.0);
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(mine.change.size(), columns);
     system.col(0).setOnes();
     system.middleCols(fit.first[k], size) = mine.change_functions;
@@ -336,12 +356,33 @@ void apply(ArmRows& rows, const HomeGroup& group, const JointFit& fit, Index joi
 
 }  // namespace
 
+namespace {
+
+// Whether any joint at rest changes its count in a test.
+bool anything_yields(const TestMotion& motion, const ArmRows& rows, const Recording& recording, const Eigen::VectorXd& resolution) {
+  return std::any_of(motion.stretches.begin(), motion.stretches.end(), [&](std::size_t s) {
+    const MovingStretch& stretch = rows.stretches[s];
+    const auto encoders =
+        recording.joint_positions.middleRows(first_sample(stretch), end_sample(stretch) - first_sample(stretch));
+    const Eigen::ArrayXd range = (encoders.colwise().maxCoeff() - encoders.colwise().minCoeff()).transpose();
+    Eigen::Array<bool, Eigen::Dynamic, 1> changes = range > 0.5 * resolution.array();
+    changes[motion.joint] = false;
+    return changes.any();
+  });
+}
+
+}  // namespace
+
 void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation& segmentation,
                    const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution) {
   std::vector<HomeGroup> groups = find_groups(rows, segmentation, resolution);
   for (HomeGroup& group : groups) {
     for (TestMotion& motion : group.tests) {
       prepare(motion, group.home, rows, spans, resolution);
+    }
+    std::vector<bool> vigorous;
+    for (const TestMotion& motion : group.tests) {
+      vigorous.push_back(anything_yields(motion, rows, recording, resolution));
     }
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const double count = resolution[joint];
@@ -376,6 +417,10 @@ void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation
           const IndexRange& samples = segmentation.dwells[i].samples;
           const Eigen::MatrixXd phi = dwell_functions(motion, rows.dwells[i]).replicate(samples.size(), 1);
           read_counts(counts[t], phi, encoder(samples.begin, samples.size()), samples.size());
+        }
+        count_repeats(counts[t]);
+        if (!vigorous[t]) {
+          counts[t].within_std = quiet_std;
         }
         if (reach < most_yield) {
           tests.push_back(t);
