@@ -304,15 +304,23 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian)
   return angular_rate();
 }
 
-Eigen::MatrixXd ArmPredictor::by_joint_offset() const {
+// Everything beyond the joint is displaced by eta = twist q: the point p of the sensor by u = v + z x p, whose own motion in the
+// displaced link adds u'' + 2 w x u' with u' = v' + z' x p + z x p'.
+ByJoint ArmPredictor::by_joint() const {
   const Eigen::Vector3d slope = 1.0 + state_.sensor.scale.array();
   const Eigen::Matrix3d by_force = slope.asDiagonal() * state_.sensor.misalignment_matrix();
-  Eigen::MatrixXd derivative(3, joints_);
+  ByJoint by{Eigen::MatrixXd(3, joints_), Eigen::MatrixXd(3, joints_), Eigen::MatrixXd(3, joints_)};
   for (Index j = 0; j < joints_; ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    derivative.col(j) = by_force * by_twist_[k + 1] * state_.axes[k].twist();
+    const auto k = static_cast<std::size_t>(j) + 1;
+    const Eigen::Matrix<double, 6, 1> twist = state_.axes[k - 1].twist();
+    const Eigen::Vector3d turn = twist.head<3>();
+    const Eigen::Vector3d shift = twist.tail<3>() + turn.cross(place_[k]);
+    const Eigen::Matrix3d back = by_force * to_sensor_[k].transpose();
+    by.position.col(j) = by_force * by_twist_[k] * twist;
+    by.velocity.col(j) = 2.0 * back * (rate_[k].cross(shift) + turn.cross(place_rate_[k]));
+    by.acceleration.col(j) = back * shift;
   }
-  return derivative;
+  return by;
 }
 
 }  // namespace circlepoint

@@ -57,6 +57,13 @@ struct JointInstant {
   Eigen::VectorXd jerk;           // (n)
 };
 
+// d reading / d q, its first and its second derivative: (3, n) each.
+struct ByJoint {
+  Eigen::MatrixXd position;
+  Eigen::MatrixXd velocity;
+  Eigen::MatrixXd acceleration;
+};
+
 // The state moved by a step in the layout's coordinates (lines: their local coordinates).
 ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<const Eigen::VectorXd>& step);
 
@@ -73,8 +80,8 @@ class ArmPredictor {
   [[nodiscard]] Eigen::Vector3d angular_rate() const;
   // The same with its derivatives, after a call with derivatives of the same instant.
   Eigen::Vector3d angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian);
-  // d reading / d q of constant joint offsets at the instant evaluated last with derivatives: (3, n).
-  [[nodiscard]] Eigen::MatrixXd by_joint_offset() const;
+  // By the joints' own motion, at the instant evaluated last with derivatives.
+  [[nodiscard]] ByJoint by_joint() const;
 
  private:
   void forward(const JointInstant& instant);

@@ -11,40 +11,41 @@
 namespace circlepoint {
 namespace {
 
-// What the shared offsets add to the joints' positions.
-void shift(const ArmProblem& problem, const std::vector<OffsetTerm>& offsets, Eigen::VectorXd& position) {
-  for (const OffsetTerm& term : offsets) {
-    position[term.joint] += problem.offsets[term.parameter];
-  }
-}
-
 void set_instant(const MovingStretch& stretch, Index row, double middle, const ArmProblem& problem, JointInstant& instant) {
   instant.time_from_middle = stretch.time[row] - middle;
   instant.position = stretch.position.row(row);
-  shift(problem, stretch.offsets, instant.position);
   instant.velocity = stretch.velocity.row(row);
   instant.acceleration = stretch.acceleration.row(row);
   instant.jerk = stretch.jerk.row(row);
+  for (std::size_t k = 0; k < stretch.offsets.size(); ++k) {
+    const OffsetTerm& term = stretch.offsets[k];
+    const auto column = static_cast<Index>(k);
+    const double offset = problem.offsets[term.parameter];
+    instant.position[term.joint] += offset * stretch.shapes.position(row, column);
+    instant.velocity[term.joint] += offset * stretch.shapes.velocity(row, column);
+    instant.acceleration[term.joint] += offset * stretch.shapes.acceleration(row, column);
+  }
 }
 
 void set_instant(const DwellRow& dwell, double middle, const ArmProblem& problem, JointInstant& instant) {
   instant.time_from_middle = dwell.time - middle;
   instant.position = dwell.position;
-  shift(problem, dwell.offsets, instant.position);
+  for (std::size_t k = 0; k < dwell.offsets.size(); ++k) {
+    instant.position[dwell.offsets[k].joint] += problem.offsets[dwell.offsets[k].parameter] * dwell.shape[static_cast<Index>(k)];
+  }
   instant.velocity = Eigen::VectorXd::Zero(dwell.position.size());
   instant.acceleration = instant.velocity;
   instant.jerk = instant.velocity;
 }
 
-// d reading / d parameter of every offset term at the instant evaluated last.
-void fill_by_offset(const ArmPredictor& predictor, const std::vector<OffsetTerm>& offsets,
-                    Eigen::Ref<Eigen::MatrixXd> derivative) {
-  if (offsets.empty()) {
-    return;
-  }
-  const Eigen::MatrixXd by_joint = predictor.by_joint_offset();
-  for (std::size_t k = 0; k < offsets.size(); ++k) {
-    derivative.col(static_cast<Index>(k)) = by_joint.col(offsets[k].joint);
+// d reading / d parameter of every offset term at a stretch's row.
+void fill_by_offset(const ByJoint& by_joint, const MovingStretch& stretch, Index row, Eigen::Ref<Eigen::MatrixXd> derivative) {
+  for (std::size_t k = 0; k < stretch.offsets.size(); ++k) {
+    const Index joint = stretch.offsets[k].joint;
+    const auto column = static_cast<Index>(k);
+    derivative.col(column) = by_joint.position.col(joint) * stretch.shapes.position(row, column) +
+                             by_joint.velocity.col(joint) * stretch.shapes.velocity(row, column) +
+                             by_joint.acceleration.col(joint) * stretch.shapes.acceleration(row, column);
   }
 }
 
@@ -61,7 +62,9 @@ Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predicto
   for (Index i = 0; i < rows; ++i) {
     set_instant(stretch, i, problem.rows.middle, problem, instant);
     const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
-    fill_by_offset(predictor, stretch.offsets, by_offset);
+    if (terms > 0) {
+      fill_by_offset(predictor.by_joint(), stretch, i, by_offset);
+    }
     for (int channel = 0; channel < 3; ++channel) {
       system.row(channel * rows + i).head(columns) = jacobian.row(channel);
       system.row(channel * rows + i).segment(columns, terms) = by_offset.row(channel);
@@ -95,9 +98,11 @@ DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, con
   const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
   system.rows.topLeftCorner(3, columns) = jacobian;
   system.rows.col(last).head<3>() = reading - dwell.reading.head<3>();
-  const Eigen::MatrixXd by_offset = predictor.by_joint_offset();
-  fill_by_offset(predictor, dwell.offsets, system.rows.block(0, columns, 3, terms));
-  system.variance.topLeftCorner<3, 3>() += by_offset * dwell.position_variance.asDiagonal() * by_offset.transpose();
+  const Eigen::MatrixXd by_position = predictor.by_joint().position;
+  for (Index k = 0; k < terms; ++k) {
+    system.rows.col(columns + k).head<3>() = by_position.col(dwell.offsets[static_cast<std::size_t>(k)].joint) * dwell.shape[k];
+  }
+  system.variance.topLeftCorner<3, 3>() += by_position * dwell.position_variance.asDiagonal() * by_position.transpose();
   if (channels == 6) {
     const Eigen::Vector3d rate = predictor.angular_rate(jacobian);
     system.rows.bottomLeftCorner(3, columns) = jacobian;
@@ -299,7 +304,7 @@ namespace {
 // Layout columns first, then all offsets, their prior included.
 NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
   const Index columns = problem.layout.columns;
-  const Index offsets = problem.rows.offset_std.size();
+  const Index offsets = problem.rows.offset_covariance.rows();
   NormalEquations all = NormalEquations::zero(columns + offsets);
   for (const PartEquations& part : parts) {
     const auto mine = static_cast<Index>(part.offsets.size());
@@ -317,10 +322,12 @@ NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquati
       }
     }
   }
-  const Eigen::ArrayXd precision = problem.rows.offset_std.array().square().inverse();
-  all.information.diagonal().tail(offsets).array() += precision;
-  all.gradient.tail(offsets).array() += precision * problem.offsets.array();
-  all.cost += (precision * problem.offsets.array().square()).sum();
+  if (offsets > 0) {
+    const Eigen::VectorXd pull = problem.rows.offset_information * problem.offsets;
+    all.information.bottomRightCorner(offsets, offsets) += problem.rows.offset_information;
+    all.gradient.tail(offsets) += pull;
+    all.cost += problem.offsets.dot(pull);
+  }
   return all;
 }
 
@@ -328,7 +335,7 @@ NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquati
 
 NormalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
   const Index columns = problem.layout.columns;
-  const Index offsets = problem.rows.offset_std.size();
+  const Index offsets = problem.rows.offset_covariance.rows();
   const NormalEquations all = assemble(problem, parts);
   NormalEquations reduced{all.information.topLeftCorner(columns, columns), all.gradient.head(columns), all.cost};
   if (offsets > 0) {
@@ -343,7 +350,7 @@ NormalEquations marginal(const ArmProblem& problem, const std::vector<PartEquati
 }
 
 Eigen::VectorXd best_offsets(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
-  const Index offsets = problem.rows.offset_std.size();
+  const Index offsets = problem.rows.offset_covariance.rows();
   if (offsets == 0) {
     return problem.offsets;
   }

@@ -86,13 +86,12 @@ NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& pa
   alone.layout = problem.layout;
   const auto count = static_cast<Index>(part.offsets.size());
   alone.offsets.resize(count);
-  alone.rows.offset_std.resize(count);
+  const std::vector<Index>& offsets = part.offsets;
   PartEquations renumbered = part;
-  for (Index k = 0; k < count; ++k) {
-    const Index offset = part.offsets[static_cast<std::size_t>(k)];
-    alone.offsets[k] = problem.offsets[offset];
-    alone.rows.offset_std[k] = problem.rows.offset_std[offset];
-    renumbered.offsets[static_cast<std::size_t>(k)] = k;
+  std::iota(renumbered.offsets.begin(), renumbered.offsets.end(), Index{0});
+  if (count > 0) {
+    alone.offsets = problem.offsets(offsets);
+    add_parameters(alone.rows, problem.rows.offset_covariance(offsets, offsets));
   }
   return marginal(alone, {renumbered});
 }

@@ -4,106 +4,34 @@
 #include <cmath>
 #include <numbers>
 
-#include "circlepoint/conditioning/butterworth.hpp"
-#include "circlepoint/conditioning/differentiate.hpp"
+#include "arm_smooth.hpp"
+#include "arm_yield.hpp"
 
 namespace circlepoint {
 namespace {
 
-constexpr int filter_order = 4;
-constexpr double slowest_cutoff = 1.0;   // Hz
-constexpr double coarse_count = 1e-4;    // rad: finer encoders see what their joints yield
-constexpr double few_counts = 50.0;
+constexpr double coarse_count = 1e-4;   // rad: finer encoders see what their joints yield
 constexpr Index shortest_stretch = 12;  // rows
 constexpr Index longest_stretch = 500;
 constexpr Index fewest_stretches = 8;    // where there is enough: each is once held out
 
-struct SmoothJoints {
-  double cutoff = 0.0;  // Hz
-  SamplesX position;
-  SamplesX velocity;
-  SamplesX acceleration;
-  SamplesX jerk;
-};
-
-struct SmoothSpan {
-  IndexRange samples;
-  std::vector<SmoothJoints> joints;  // by falling cut-off, the common one first
-  SamplesX reading;
-  Index usable_begin = 0;  // first and last samples not spoilt by the span's ends, in the recording's indices
-  Index usable_end = 0;
-};
-
-SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate) {
-  const auto pad = std::min<Index>(samples.rows() - 1, static_cast<Index>(std::lround(4.0 * rate / cutoff)));
-  return sosfiltfilt(butter(filter_order, cutoff, rate), samples, PadType::even, pad);
-}
-
-// Time reversal leaves the model as it is where all joints stand still: a mirrored continuation is then exact, and only a span
-// that begins or ends in motion loses a filter length.
-SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope) {
-  const double rate = recording.sample_rate;
-  SmoothSpan result;
-  result.samples = span;
-  const SamplesX position = recording.joint_positions.middleRows(span.begin, span.size());
-  for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
-    SmoothJoints joints{mine, low_pass(position, mine, rate), {}, {}, {}};
-    joints.velocity = savgol_filter(joints.position, 7, 6, 1, 1.0 / rate);
-    joints.acceleration = savgol_filter(joints.position, 7, 6, 2, 1.0 / rate);
-    joints.jerk = savgol_filter(joints.position, 7, 6, 3, 1.0 / rate);
-    result.joints.push_back(std::move(joints));
-  }
-  SamplesX reading(span.size(), gyroscope ? 6 : 3);
-  reading.leftCols(3) = recording.specific_force.middleRows(span.begin, span.size());
-  if (gyroscope) {
-    reading.rightCols(3) = recording.angular_velocity->middleRows(span.begin, span.size());
-  }
-  result.reading = low_pass(reading, cutoff, rate);
-  const auto run_in = std::min<Index>(span.size() / 4, static_cast<Index>(std::lround(2.5 * rate / cutoff)));
-  const auto still = [&](Index from) {
-    const auto edge = recording.joint_positions.middleRows(from, run_in);
-    const double seconds = static_cast<double>(run_in) / rate;
-    const double moved = (edge.row(run_in - 1) - edge.row(0)).cwiseAbs().maxCoeff();
-    return moved < 0.02 * seconds;
-  };
-  result.usable_begin = span.begin + (run_in > 1 && still(span.begin) ? 3 : run_in);
-  result.usable_end = span.end - (run_in > 1 && still(span.end - run_in) ? 3 : run_in);
-  return result;
-}
-
-// A joint that only yields shows as a staircase of few counts, and its steps differentiated twice are worse than nothing: what it
-// really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
-std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
-  const Index begin = moving.begin - span.samples.begin;
-  const SmoothJoints& widest = span.joints.front();
-  const auto range = [&](Index j) {
-    const auto column = widest.position.col(j).segment(begin, moving.size());
-    return column.maxCoeff() - column.minCoeff();
-  };
-  if (range(joint) > few_counts * resolution[joint]) {
-    return 0;
-  }
-  double frequency = 0.0;
-  for (Index j = 0; j < resolution.size(); ++j) {
-    const double travel = range(j);
-    if (travel > few_counts * resolution[j]) {
-      const double fastest = widest.velocity.col(j).segment(begin, moving.size()).cwiseAbs().maxCoeff();
-      frequency = std::max(frequency, fastest / (std::numbers::pi * travel));
+// The motion of one joint alone through the middle of the range, or -1.
+Index single_motion(const Segmentation& segmentation, const IndexRange& range) {
+  const Index middle = (range.begin + range.end) / 2;
+  for (std::size_t i = 0; i < segmentation.motions.size(); ++i) {
+    const SingleJointMotion& motion = segmentation.motions[i];
+    if (motion.samples.begin <= middle && middle < motion.samples.end) {
+      return static_cast<Index>(i);
     }
   }
-  std::size_t chosen = 0;
-  while (chosen + 1 < span.joints.size() && span.joints[chosen + 1].cutoff > 4.0 * frequency) {
-    ++chosen;
-  }
-  return chosen;
+  return -1;
 }
 
-// The joint that moves alone through the middle of the range, or -1.
-Index moving_joint(const Segmentation& segmentation, const IndexRange& range) {
-  const Index middle = (range.begin + range.end) / 2;
-  for (const SingleJointMotion& motion : segmentation.motions) {
-    if (motion.samples.begin <= middle && middle < motion.samples.end) {
-      return motion.joint;
+Index test_of(const Segmentation& segmentation, Index motion) {
+  for (std::size_t i = 0; i < segmentation.tests.size(); ++i) {
+    const std::vector<Index>& motions = segmentation.tests[i].motions;
+    if (std::find(motions.begin(), motions.end(), motion) != motions.end()) {
+      return static_cast<Index>(i);
     }
   }
   return -1;
@@ -117,6 +45,7 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
   if (moving.size() <= 0 || available < shortest_stretch) {
     return;
   }
+  const Index motion = single_motion(segmentation, moving);
   const Index pieces = (available + longest - 1) / longest;
   for (Index piece = 0; piece < pieces; ++piece) {
     const Index first = available * piece / pieces;
@@ -125,7 +54,12 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
         last - first, static_cast<int>(moving.begin - span.samples.begin + first * step),
         static_cast<int>(moving.begin - span.samples.begin + (last - 1) * step));
     MovingStretch stretch;
-    stretch.joint = moving_joint(segmentation, moving);
+    if (motion >= 0) {
+      stretch.joint = segmentation.motions[static_cast<std::size_t>(motion)].joint;
+      stretch.test = test_of(segmentation, motion);
+    }
+    stretch.follows.assign(static_cast<std::size_t>(recording.joints()), false);
+    stretch.sample = index + static_cast<int>(span.samples.begin);
     stretch.position.resize(last - first, recording.joints());
     stretch.velocity = stretch.acceleration = stretch.jerk = stretch.position;
     for (Index joint = 0; joint < recording.joints(); ++joint) {
@@ -136,7 +70,7 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
       stretch.jerk.col(joint) = joints.jerk(index, joint);
     }
     stretch.reading = span.reading(index, Eigen::all);
-    stretch.time = recording.time(index + static_cast<int>(span.samples.begin));
+    stretch.time = recording.time(stretch.sample);
     rows.stretches.push_back(std::move(stretch));
     rows.samples += (last - first) * step;
   }
@@ -146,6 +80,7 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
   DwellRow row;
   const auto count = static_cast<double>(dwell.samples.size());
   row.position = dwell.joint_positions;
+  row.follows.assign(static_cast<std::size_t>(row.position.size()), false);
   // A joint that shows a single count is anywhere within it.
   row.position_variance = resolution.cwiseAbs2() / 12.0;
   const Index channels = gyroscope ? 6 : 3;
@@ -165,8 +100,8 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
 
 // Which rows share a rest: the same joint on the same count.
 void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
-  std::vector<double> std;
   for (Index joint = 0; joint < resolution.size(); ++joint) {
+    const auto at = static_cast<std::size_t>(joint);
     const double count = resolution[joint];
     if (count <= 0.0) {
       continue;
@@ -178,6 +113,9 @@ void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
     };
     std::vector<Rest> rests;
     for (DwellRow& dwell : rows.dwells) {
+      if (dwell.follows[at]) {
+        continue;
+      }
       const auto same = std::find_if(rests.begin(), rests.end(), [&](const Rest& rest) {
         return std::abs(rest.position - dwell.position[joint]) < 0.75 * count;
       });
@@ -186,28 +124,82 @@ void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
     }
     for (Rest& rest : rests) {
       for (MovingStretch& stretch : rows.stretches) {
-        if ((stretch.position.col(joint).array() - rest.position).abs().maxCoeff() < 0.75 * count) {
+        if (!stretch.follows[at] &&
+            (stretch.position.col(joint).array() - rest.position).abs().maxCoeff() < 0.75 * count) {
           rest.stretches.push_back(&stretch);
         }
       }
       if (rest.dwells.size() + rest.stretches.size() < 2) {
         continue;
       }
-      const OffsetTerm term{joint, static_cast<Index>(std.size())};
-      std.push_back(count / std::sqrt(12.0));
+      const OffsetTerm term{joint, add_parameters(rows, Eigen::MatrixXd::Constant(1, 1, count * count / 12.0))};
       for (DwellRow* dwell : rest.dwells) {
-        dwell->offsets.push_back(term);
+        add_term(*dwell, term, 1.0);
         dwell->position_variance[joint] = 0.0;
       }
       for (MovingStretch* stretch : rest.stretches) {
-        stretch->offsets.push_back(term);
+        const Eigen::VectorXd zero = Eigen::VectorXd::Zero(stretch->rows());
+        add_term(*stretch, term, Eigen::VectorXd::Ones(stretch->rows()), zero, zero);
       }
     }
   }
-  rows.offset_std = Eigen::Map<const Eigen::VectorXd>(std.data(), static_cast<Index>(std.size()));
 }
 
 }  // namespace
+
+MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows) {
+  MovingStretch piece;
+  piece.joint = stretch.joint;
+  piece.test = stretch.test;
+  piece.noise = stretch.noise;
+  piece.offsets = stretch.offsets;
+  piece.follows = stretch.follows;
+  piece.sample = stretch.sample(rows);
+  piece.time = stretch.time(rows);
+  piece.position = stretch.position(rows, Eigen::all);
+  piece.velocity = stretch.velocity(rows, Eigen::all);
+  piece.acceleration = stretch.acceleration(rows, Eigen::all);
+  piece.jerk = stretch.jerk(rows, Eigen::all);
+  piece.reading = stretch.reading(rows, Eigen::all);
+  if (!stretch.offsets.empty()) {
+    piece.shapes.position = stretch.shapes.position(rows, Eigen::all);
+    piece.shapes.velocity = stretch.shapes.velocity(rows, Eigen::all);
+    piece.shapes.acceleration = stretch.shapes.acceleration(rows, Eigen::all);
+  }
+  return piece;
+}
+
+void add_term(MovingStretch& stretch, const OffsetTerm& term, const Eigen::VectorXd& position, const Eigen::VectorXd& velocity,
+              const Eigen::VectorXd& acceleration) {
+  const auto append = [&](Eigen::MatrixXd& shapes, const Eigen::VectorXd& shape) {
+    shapes.conservativeResize(stretch.rows(), shapes.cols() + 1);
+    shapes.rightCols<1>() = shape;
+  };
+  append(stretch.shapes.position, position);
+  append(stretch.shapes.velocity, velocity);
+  append(stretch.shapes.acceleration, acceleration);
+  stretch.offsets.push_back(term);
+}
+
+void add_term(DwellRow& dwell, const OffsetTerm& term, double shape) {
+  dwell.offsets.push_back(term);
+  dwell.shape.conservativeResize(static_cast<Index>(dwell.offsets.size()));
+  dwell.shape[dwell.shape.size() - 1] = shape;
+}
+
+Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance) {
+  const Index before = rows.offset_covariance.rows();
+  const Index after = before + covariance.rows();
+  const auto grow = [&](Eigen::MatrixXd& all, const Eigen::MatrixXd& block) {
+    Eigen::MatrixXd larger = Eigen::MatrixXd::Zero(after, after);
+    larger.topLeftCorner(before, before) = all;
+    larger.bottomRightCorner(block.rows(), block.rows()) = block;
+    all = std::move(larger);
+  };
+  grow(rows.offset_covariance, covariance);
+  grow(rows.offset_information, covariance.inverse());
+  return before;
+}
 
 double choose_common_cutoff(const Recording& recording, const Eigen::VectorXd& resolution) {
   constexpr double widest = 10.0;     // Hz, the paper's choice; arms begin to bend and ring above it
@@ -237,20 +229,25 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
   }
+  const bool coarse = resolution.maxCoeff() > coarse_count;
+  std::vector<SmoothSpan> spans;
   for (const IndexRange& span : recording.spans) {
     if (span.size() < std::max<Index>(32, shortest_stretch * step)) {
       continue;
     }
-    const SmoothSpan smoothed = smooth(recording, span, cutoff, resolution.maxCoeff() > coarse_count, gyroscope);
+    spans.push_back(smooth(recording, span, cutoff, coarse, gyroscope));
     Index begin = span.begin;
     for (const StaticDwell& dwell : segmentation.dwells) {
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, smoothed, {begin, dwell.samples.begin}, step, longest, resolution);
+      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin}, step, longest, resolution);
       begin = dwell.samples.end;
     }
-    add_stretches(rows, recording, segmentation, smoothed, {begin, span.end}, step, longest, resolution);
+    add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution);
+  }
+  if (coarse) {
+    follow_yields(rows, recording, segmentation, spans, resolution);
   }
   share_offsets(rows, resolution);
   return rows;

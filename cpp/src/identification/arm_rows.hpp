@@ -10,15 +10,24 @@
 
 namespace circlepoint {
 
-// An unknown error of a resting joint's position: a shared parameter.
+// An unknown error of a joint's position: a parameter times a shape that the row or stretch gives.
 struct OffsetTerm {
   Index joint = 0;
-  Index parameter = 0;  // into ArmRows::offset_std
+  Index parameter = 0;  // into ArmRows::offset_covariance
+};
+
+// Shapes of a stretch's offset terms, a column each, with their time derivatives.
+struct OffsetShapes {
+  Eigen::MatrixXd position;      // (M, terms) 1
+  Eigen::MatrixXd velocity;      // (M, terms) 1/s
+  Eigen::MatrixXd acceleration;  // (M, terms) 1/s^2
 };
 
 struct MovingStretch {
   Index joint = -1;        // the one joint that moves, or -1
+  Index test = -1;         // of that joint, into Segmentation::tests, or -1
   Index noise = 0;         // kind of motion: stretches of one kind share their noise model
+  Eigen::ArrayXi sample;   // (M) of the recording
   Eigen::VectorXd time;    // (M) s
   SamplesX position;       // (M, n)
   SamplesX velocity;       // (M, n)
@@ -26,6 +35,8 @@ struct MovingStretch {
   SamplesX jerk;           // (M, n)
   SamplesX reading;        // (M, 3), or (M, 6) with angular rate
   std::vector<OffsetTerm> offsets;  // of the joints that rest meanwhile
+  OffsetShapes shapes;
+  std::vector<bool> follows;        // (n) the joint's yield is modelled (arm_yield)
   [[nodiscard]] Index rows() const { return time.size(); }
 };
 
@@ -33,6 +44,8 @@ struct DwellRow {
   Eigen::VectorXd position;                             // (n)
   Eigen::VectorXd position_variance;                    // (n), of what the encoders do not resolve, for this dwell only
   std::vector<OffsetTerm> offsets;                      // that other rows share
+  Eigen::VectorXd shape;                                // of each offset term
+  std::vector<bool> follows;                            // (n) as a stretch's
   Eigen::VectorXd reading;                              // (3) or (6)
   Eigen::VectorXd variance;                             // (3) or (6), of the mean by its samples' scatter
   double time = 0.0;                                    // s, middle
@@ -44,13 +57,25 @@ struct DwellRow {
 struct ArmRows {
   std::vector<DwellRow> dwells;
   std::vector<MovingStretch> stretches;
-  Eigen::VectorXd offset_std;  // (K) rad or m, prior of each shared offset
+  Eigen::MatrixXd offset_covariance;   // (K, K) prior of the shared offsets, mean zero
+  Eigen::MatrixXd offset_information;  // its inverse
   double cutoff = 0.0;      // Hz
   double rate = 0.0;        // Hz, of the thinned-out rows
   double middle = 0.0;      // s
   Index channels = 3;       // 6 with a gyroscope
   Index samples = 0;        // of the recording, used
 };
+
+// The given rows of a stretch.
+MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);
+
+// Adds a term of constant or given shape.
+void add_term(MovingStretch& stretch, const OffsetTerm& term, const Eigen::VectorXd& position, const Eigen::VectorXd& velocity,
+              const Eigen::VectorXd& acceleration);
+void add_term(DwellRow& dwell, const OffsetTerm& term, double shape);
+
+// Adds parameters with the given prior; the first one's index.
+Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance);
 
 double choose_common_cutoff(const Recording& recording, const Eigen::VectorXd& resolution);
 

@@ -30,16 +30,7 @@ ArmRows thin(const ArmRows& rows) {
     if (keep.empty()) {
       continue;
     }
-    MovingStretch piece;
-    piece.joint = stretch.joint;
-    piece.offsets = stretch.offsets;
-    piece.time = stretch.time(keep);
-    piece.position = stretch.position(keep, Eigen::all);
-    piece.velocity = stretch.velocity(keep, Eigen::all);
-    piece.acceleration = stretch.acceleration(keep, Eigen::all);
-    piece.jerk = stretch.jerk(keep, Eigen::all);
-    piece.reading = stretch.reading(keep, Eigen::all);
-    thinned.stretches.push_back(std::move(piece));
+    thinned.stretches.push_back(picked(stretch, keep));
   }
   const std::size_t dwell_step = std::max<std::size_t>(1, rows.dwells.size() / 100);
   thinned.dwells.clear();
@@ -75,7 +66,7 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
   small.prior.gravity = problem.prior.gravity;
   small.prior.gravity_std = 0.1;
   small.noise = white_noise(small.rows, 0.3, 0.3, 0.03);
-  small.offsets = Eigen::VectorXd::Zero(small.rows.offset_std.size());
+  small.offsets = Eigen::VectorXd::Zero(small.rows.offset_covariance.rows());
   small.threads = problem.threads;
   small.layout.lines.assign(moves.size(), -1);
   for (std::size_t i = 0; i < moves.size(); ++i) {

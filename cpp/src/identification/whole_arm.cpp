@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <thread>
 
 #include "arm_problem.hpp"
@@ -179,17 +180,9 @@ Index cut_knocks(ArmRows& rows, const ArmResiduals& residuals) {
         continue;
       }
       if (row - begin >= shortest) {
-        MovingStretch piece;
-        piece.joint = stretch.joint;
-        piece.noise = stretch.noise;
-        piece.offsets = stretch.offsets;
-        piece.time = stretch.time.segment(begin, row - begin);
-        piece.position = stretch.position.middleRows(begin, row - begin);
-        piece.velocity = stretch.velocity.middleRows(begin, row - begin);
-        piece.acceleration = stretch.acceleration.middleRows(begin, row - begin);
-        piece.jerk = stretch.jerk.middleRows(begin, row - begin);
-        piece.reading = stretch.reading.middleRows(begin, row - begin);
-        kept.push_back(std::move(piece));
+        std::vector<Index> good(static_cast<std::size_t>(row - begin));
+        std::iota(good.begin(), good.end(), begin);
+        kept.push_back(picked(stretch, good));
       } else {
         removed += row - begin;
       }
@@ -414,7 +407,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   Eigen::MatrixXd covariance;
   NormalEquations all;
   std::vector<PartEquations> parts;
-  problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_std.size());
+  problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   for (int pass = 0; pass < options.max_passes && !result.converged; ++pass) {
     const ArmSolution solution = solve(problem, state, 50);
     result.iterations += solution.iterations;

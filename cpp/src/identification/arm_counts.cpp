@@ -1,0 +1,129 @@
+#include "arm_counts.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace circlepoint {
+namespace {
+
+constexpr double finest_change = 0.05;     // counts: no count change is known better
+constexpr double worst_change = 0.35;      // counts rms: the model does not hold beyond
+
+JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::size_t>& tests) {
+  JointFit fit;
+  fit.tests = tests;
+  Index columns = 1;
+  for (const std::size_t t : tests) {
+    fit.first.push_back(columns);
+    columns += counts[t].within_functions.cols();
+  }
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(columns, columns);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(columns);
+  information(0, 0) = 12.0;  // home shows one count: its middle, within a twelfth of a squared count
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const CountRows& mine = counts[tests[k]];
+    const Index size = mine.within_functions.cols();
+    // Within the counts: in all as much as says that the deflection is known to within_std. A joint that goes to and fro over one
+    // boundary shows a square wave, whose error of a count's scatter lies in one direction: so much is left open in each then.
+    const double directions = mine.change.size() > 0 ? 1.0 : static_cast<double>(size);
+    const double weight = directions / (mine.within_std * mine.within_std * static_cast<double>(mine.within.size()));
+    information.block(fit.first[k], fit.first[k], size, size) += weight * mine.within_functions.transpose() * mine.within_functions;
+    gradient.segment(fit.first[k], size) += weight * mine.within_functions.transpose() * mine.within;
+    if (mine.change.size() == 0) {
+      continue;
+    }
+    const Eigen::ArrayXd variance =
+        mine.repeats.array() * (mine.change_std * mine.change_std + (mine.change_size.array() - 1.0).max(0.0).square() / 12.0);
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(mine.change.size(), columns);
+    system.col(0).setOnes();
+    system.middleCols(fit.first[k], size) = mine.change_functions;
+    const Eigen::MatrixXd weighted = variance.inverse().matrix().asDiagonal() * system;
+    information += weighted.transpose() * system;
+    gradient += weighted.transpose() * mine.change;
+  }
+  fit.covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(columns, columns));
+  fit.estimate = fit.covariance * gradient;
+  return fit;
+}
+
+}  // namespace
+
+void count_repeats(CountRows& counts) {
+  const Index changes = counts.change.size();
+  counts.repeats = Eigen::VectorXd::Zero(changes);
+  for (Index i = 0; i < changes; ++i) {
+    for (Index k = 0; k < changes; ++k) {
+      if (std::abs(counts.change[i] - counts.change[k]) < 0.25 && counts.upward[i] == counts.upward[k]) {
+        counts.repeats[i] += 1.0;
+      }
+    }
+  }
+}
+
+void read_counts(CountRows& counts, const Eigen::MatrixXd& phi, const Eigen::Ref<const Eigen::VectorXd>& encoder, Index thinning) {
+  std::vector<Index> changes;
+  std::vector<Index> within;
+  for (Index k = 0; k < encoder.size(); ++k) {
+    if (k + 1 < encoder.size() && std::abs(encoder[k + 1] - encoder[k]) > 0.5) {
+      changes.push_back(k);
+    }
+    if (k % thinning == 0) {
+      within.push_back(k);
+    }
+  }
+  const auto append = [](Eigen::MatrixXd& matrix, Eigen::VectorXd& values, const Eigen::MatrixXd& more, const Eigen::VectorXd& value) {
+    const Index before = values.size();
+    matrix.conservativeResize(before + value.size(), more.cols());
+    values.conservativeResize(before + value.size());
+    matrix.bottomRows(value.size()) = more;
+    values.tail(value.size()) = value;
+  };
+  const auto count = static_cast<Index>(changes.size());
+  Eigen::MatrixXd functions_there(count, phi.cols());
+  Eigen::VectorXd value(count);
+  Eigen::VectorXd size(count);
+  Eigen::VectorXd upward(count);
+  for (Index k = 0; k < count; ++k) {
+    const Index at = changes[static_cast<std::size_t>(k)];
+    functions_there.row(k) = 0.5 * (phi.row(at) + phi.row(at + 1));
+    value[k] = 0.5 * (encoder[at] + encoder[at + 1]);
+    size[k] = std::abs(encoder[at + 1] - encoder[at]);
+    upward[k] = encoder[at + 1] > encoder[at] ? 1.0 : 0.0;
+  }
+  append(counts.change_functions, counts.change, functions_there, value);
+  counts.change_size.conservativeResize(counts.change.size());
+  counts.change_size.tail(count) = size;
+  counts.upward.conservativeResize(counts.change.size());
+  counts.upward.tail(count) = upward;
+  append(counts.within_functions, counts.within, phi(within, Eigen::all), encoder(within));
+}
+
+JointFit fit_and_judge(std::vector<CountRows>& counts, std::vector<std::size_t> tests) {
+  JointFit fit;
+  for (int pass = 0; pass < 4; ++pass) {
+    fit = fit_joint(counts, tests);
+    std::vector<std::size_t> holding;
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+      CountRows& mine = counts[tests[k]];
+      const Index size = mine.within_functions.cols();
+      if (mine.change.size() > 0) {
+        const Eigen::VectorXd misfit =
+            ((mine.change_functions * fit.estimate.segment(fit.first[k], size)).array() + fit.estimate[0]).matrix() - mine.change;
+        const double freedom = std::max(0.3 * static_cast<double>(misfit.size()), static_cast<double>(misfit.size() - size));
+        const double rms = std::sqrt(misfit.squaredNorm() / freedom);
+        if (pass > 0 && rms > worst_change) {
+          continue;
+        }
+        mine.change_std = std::max(finest_change, rms);
+      }
+      holding.push_back(tests[k]);
+    }
+    if (pass > 1 && holding.size() == tests.size()) {
+      break;
+    }
+    tests = std::move(holding);
+  }
+  return fit;
+}
+
+}  // namespace circlepoint

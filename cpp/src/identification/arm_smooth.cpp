@@ -1,0 +1,83 @@
+#include "arm_smooth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "circlepoint/conditioning/butterworth.hpp"
+#include "circlepoint/conditioning/differentiate.hpp"
+
+namespace circlepoint {
+namespace {
+
+constexpr int filter_order = 4;
+constexpr double slowest_cutoff = 1.0;  // Hz
+constexpr double few_counts = 50.0;
+
+SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate) {
+  const auto pad = std::min<Index>(samples.rows() - 1, static_cast<Index>(std::lround(4.0 * rate / cutoff)));
+  return sosfiltfilt(butter(filter_order, cutoff, rate), samples, PadType::even, pad);
+}
+
+}  // namespace
+
+SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope) {
+  const double rate = recording.sample_rate;
+  SmoothSpan result;
+  result.samples = span;
+  const SamplesX position = recording.joint_positions.middleRows(span.begin, span.size());
+  for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
+    SmoothJoints joints{mine, low_pass(position, mine, rate), {}, {}, {}};
+    joints.velocity = savgol_filter(joints.position, 7, 6, 1, 1.0 / rate);
+    joints.acceleration = savgol_filter(joints.position, 7, 6, 2, 1.0 / rate);
+    joints.jerk = savgol_filter(joints.position, 7, 6, 3, 1.0 / rate);
+    result.joints.push_back(std::move(joints));
+  }
+  SamplesX reading(span.size(), gyroscope ? 6 : 3);
+  reading.leftCols(3) = recording.specific_force.middleRows(span.begin, span.size());
+  if (gyroscope) {
+    reading.rightCols(3) = recording.angular_velocity->middleRows(span.begin, span.size());
+  }
+  result.reading = low_pass(reading, cutoff, rate);
+  const auto run_in = std::min<Index>(span.size() / 4, static_cast<Index>(std::lround(2.5 * rate / cutoff)));
+  const auto still = [&](Index from) {
+    const auto edge = recording.joint_positions.middleRows(from, run_in);
+    const double seconds = static_cast<double>(run_in) / rate;
+    const double moved = (edge.row(run_in - 1) - edge.row(0)).cwiseAbs().maxCoeff();
+    return moved < 0.02 * seconds;
+  };
+  result.usable_begin = span.begin + (run_in > 1 && still(span.begin) ? 3 : run_in);
+  result.usable_end = span.end - (run_in > 1 && still(span.end - run_in) ? 3 : run_in);
+  return result;
+}
+
+namespace {
+
+double range(const SmoothSpan& span, const IndexRange& moving, Index joint) {
+  const auto column = span.joints.front().position.col(joint).segment(moving.begin - span.samples.begin, moving.size());
+  return column.maxCoeff() - column.minCoeff();
+}
+
+}  // namespace
+
+std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
+  return range(span, moving, joint) > few_counts * resolution[joint] ? 0 : smoothing_for_motion(span, moving, resolution);
+}
+
+std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution) {
+  double frequency = 0.0;
+  for (Index j = 0; j < resolution.size(); ++j) {
+    const double travel = range(span, moving, j);
+    if (travel > few_counts * resolution[j]) {
+      const auto velocity = span.joints.front().velocity.col(j).segment(moving.begin - span.samples.begin, moving.size());
+      frequency = std::max(frequency, velocity.cwiseAbs().maxCoeff() / (std::numbers::pi * travel));
+    }
+  }
+  std::size_t chosen = 0;
+  while (chosen + 1 < span.joints.size() && span.joints[chosen + 1].cutoff > 4.0 * frequency) {
+    ++chosen;
+  }
+  return chosen;
+}
+
+}  // namespace circlepoint

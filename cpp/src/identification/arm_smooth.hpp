@@ -1,0 +1,37 @@
+#pragma once
+// Low-passed positions and readings of one span between gaps, and how smooth each joint is taken to be.
+
+#include <vector>
+
+#include "circlepoint/recording/recording.hpp"
+
+namespace circlepoint {
+
+struct SmoothJoints {
+  double cutoff = 0.0;  // Hz
+  SamplesX position;
+  SamplesX velocity;
+  SamplesX acceleration;
+  SamplesX jerk;
+};
+
+struct SmoothSpan {
+  IndexRange samples;
+  std::vector<SmoothJoints> joints;  // by falling cut-off, the common one first
+  SamplesX reading;
+  Index usable_begin = 0;  // first and last samples not spoilt by the span's ends, in the recording's indices
+  Index usable_end = 0;
+};
+
+// Time reversal leaves the model as it is where all joints stand still: a mirrored continuation is then exact, and only a span
+// that begins or ends in motion loses a filter length.
+SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope);
+
+// A joint that only yields shows as a staircase of few counts, and its steps differentiated twice are worse than nothing: what it
+// really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
+std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
+
+// The smoothing that passes the moving joints' motion, a few times its frequency, and no more.
+std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution);
+
+}  // namespace circlepoint
