@@ -40,7 +40,9 @@ MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size
         whiten(noise.channels.back(), segment);
         squares += segment.squaredNorm();
       }
-      noise.channels.back().innovation_std *= std::sqrt(squares / static_cast<double>(count));
+      // The model's own coefficients were fitted to the same residuals.
+      const auto freedom = static_cast<double>(std::max<Index>(1, count - noise.channels.back().order()));
+      noise.channels.back().innovation_std *= std::sqrt(squares / freedom);
     }
   }
   return noise;

@@ -11,7 +11,7 @@ namespace circlepoint {
 namespace {
 
 constexpr double coarse_count = 1e-4;   // rad: finer encoders see what their joints yield
-constexpr Index shortest_stretch = 12;  // rows
+constexpr Index shortest_stretch = 5;   // rows
 constexpr Index longest_stretch = 500;
 constexpr Index fewest_stretches = 8;    // where there is enough: each is once held out
 
@@ -37,12 +37,10 @@ Index test_of(const Segmentation& segmentation, Index motion) {
   return -1;
 }
 
-void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
-  moving.begin = std::max(moving.begin, span.usable_begin);
-  moving.end = std::min(moving.end, span.usable_end);
+void add_part(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
+              const IndexRange& moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
   const Index available = (moving.size() + step - 1) / step;
-  if (moving.size() <= 0 || available < shortest_stretch) {
+  if (available < shortest_stretch) {
     return;
   }
   const Index motion = single_motion(segmentation, moving);
@@ -73,6 +71,18 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
     stretch.time = recording.time(stretch.sample);
     rows.stretches.push_back(std::move(stretch));
     rows.samples += (last - first) * step;
+  }
+}
+
+void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
+                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
+  moving.begin = std::max(moving.begin, span.usable_begin);
+  moving.end = std::min(moving.end, span.usable_end);
+  if (moving.size() <= 0) {
+    return;
+  }
+  for (const IndexRange& part : without_steps(span, moving, resolution, recording.sample_rate)) {
+    add_part(rows, recording, segmentation, span, part, step, longest, resolution);
   }
 }
 
@@ -224,7 +234,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
   rows.middle = 0.5 * (recording.time[0] + recording.time[recording.samples() - 1]);
   const auto step = std::max<Index>(1, static_cast<Index>(std::floor(recording.sample_rate / (2.0 * cutoff))));
   rows.rate = recording.sample_rate / static_cast<double>(step);
-  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 4 * shortest_stretch, longest_stretch);
+  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 8 * shortest_stretch, longest_stretch);
   for (const StaticDwell& dwell : segmentation.dwells) {
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
@@ -236,13 +246,15 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
       continue;
     }
     spans.push_back(smooth(recording, span, cutoff, coarse, gyroscope));
+    // Rows of a stretch hold noise from half a filter's width around; what a dwell has averaged must not count again.
+    const auto apart = static_cast<Index>(std::lround(0.3 * recording.sample_rate / cutoff));
     Index begin = span.begin;
     for (const StaticDwell& dwell : segmentation.dwells) {
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin}, step, longest, resolution);
-      begin = dwell.samples.end;
+      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin - apart}, step, longest, resolution);
+      begin = dwell.samples.end + apart;
     }
     add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution);
   }

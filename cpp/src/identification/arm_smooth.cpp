@@ -64,6 +64,42 @@ std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, I
   return range(span, moving, joint) > few_counts * resolution[joint] ? 0 : smoothing_for_motion(span, moving, resolution);
 }
 
+std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution,
+                                      double rate) {
+  constexpr double beyond = 3.0;      // eq. (11) inside reaches 1, a minimum-jerk move 2.3, a step of acceleration 5 and more
+  constexpr double too_many = 0.2;    // share of a range that is then a motion of its own kind, not steps
+  const SmoothJoints& joints = span.joints.front();
+  const Index begin = moving.begin - span.samples.begin;
+  Eigen::Array<bool, Eigen::Dynamic, 1> step = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(moving.size(), false);
+  for (Index j = 0; j < resolution.size(); ++j) {
+    const double travel = range(span, moving, j);
+    if (travel <= few_counts * resolution[j] || travel <= 0.0) {
+      continue;
+    }
+    const double fastest = joints.velocity.col(j).segment(begin, moving.size()).cwiseAbs().maxCoeff();
+    const double own = std::pow(2.0 * fastest / travel, 2) * fastest;
+    step = step || joints.jerk.col(j).segment(begin, moving.size()).array().abs() > beyond * own;
+  }
+  if (static_cast<double>(step.count()) > too_many * static_cast<double>(moving.size())) {
+    return {moving};
+  }
+  const auto margin = static_cast<Index>(std::lround(0.5 * rate / joints.cutoff));
+  std::vector<IndexRange> parts;
+  Index from = 0;
+  for (Index i = 0; i < moving.size(); ++i) {
+    if (step[i]) {
+      if (i - margin > from) {
+        parts.push_back({moving.begin + from, moving.begin + i - margin});
+      }
+      from = i + margin + 1;
+    }
+  }
+  if (from < moving.size()) {
+    parts.push_back({moving.begin + from, moving.end});
+  }
+  return parts;
+}
+
 std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution) {
   double frequency = 0.0;
   for (Index j = 0; j < resolution.size(); ++j) {

@@ -157,7 +157,7 @@ void name_kinds(ArmRows& rows, Index joints) {
 // Rows to leave out, a flag each, around whitened residuals beyond the limit.
 Index cut_knocks(ArmRows& rows, const ArmResiduals& residuals) {
   constexpr Index margin = 4;
-  constexpr Index shortest = 12;
+  constexpr Index shortest = 5;
   std::vector<MovingStretch> kept;
   Index removed = 0;
   Index total = 0;
