@@ -40,8 +40,8 @@ class Centre:
 
 
 NOT_ZERO = 0.02
-"""Share of the peak rate from which on v "is different from zero" (sec. 2.2). The paper gives no number: at this one its
-printed errors come out (table "Method 2 as printed" of the study)."""
+"""Share of the peak rate from which on v "is different from zero" (sec. 2.2). The paper gives no number: at this one
+its errors come out (table "Method 2 as printed" of the study)."""
 METHODS = {
     "position": Centre("position"),
     "velocity_means": Centre("velocity", least_squares=False, significant_rate=NOT_ZERO),

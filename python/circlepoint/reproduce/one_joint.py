@@ -131,10 +131,10 @@ def _acquisition(conditions: Conditions) -> circlepoint.AcquisitionOptions:
     return chain
 
 
-def raised_cosine(conditions: Conditions) -> circlepoint.RaisedCosine:
+def raised_cosine(conditions: Conditions, joint: int = 0) -> circlepoint.RaisedCosine:
     """Return the dynamic test's motion, eq. (11)."""
     return circlepoint.RaisedCosine(
-        joint=0, span=conditions.span, frequency=conditions.frequency, duration=conditions.duration
+        joint=joint, span=conditions.span, frequency=conditions.frequency, duration=conditions.duration
     )
 
 

@@ -41,8 +41,8 @@ ASSUMED = (
         "was chosen because its figures come out there."
     ),
     (
-        "The acquisition's row: section 3, 16 bits and filters of second order (assumed), PD loops of 5 Hz (assumed), a "
-        "quarter second of rest recorded around the motion."
+        "The acquisition: section 3 with 16 bits and filters of second order (assumed), PD loops of 5 Hz (assumed), a "
+        "quarter second of rest recorded around the motion (assumed)."
     ),
     (
         "Best method: for the arm's axes, centres and end-point the whole-arm estimate on one continuous log an arm "

@@ -16,6 +16,7 @@ from circlepoint.reproduce.one_joint import Array, raised_cosine
 if TYPE_CHECKING:
     from circlepoint.reproduce.conditions import Conditions
 
+_dwell = 0.8  # s
 _pause = 0.5  # s of rest between motions
 _simulated_rate = 500.0  # Hz; slower converters drop samples of this
 
@@ -42,20 +43,23 @@ class RecordedArm:
 def record_arm(conditions: Conditions, seed: int) -> RecordedArm:
     """Return the arm of `arm_trial` with the same seed, its joints tested one after the other in one log.
 
-    Each joint rests at 16 places over the span (the paper: 150), 0.8 s each, then moves by eq. (11). Noise is that of
-    dynamic samples throughout: averaged over a rest it comes to what the paper has for a pose.
+    Each joint rests at 16 places over the span (the paper: 150), 0.8 s each, then moves by eq. (11). As in the
+    single-joint trials, a rest's mean has the noise of a pose, and samples in motion have theirs.
     """
     chain, up = draw_arm(seed)
     sensor = circlepoint.draw_accelerometer(conditions.sensor, circlepoint.derive_seed(seed, 1))
     pieces: list[circlepoint.SteppedSweep | circlepoint.RaisedCosine] = []
     for joint in range(len(chain)):
-        motion = raised_cosine(conditions)
-        motion.joint = joint
-        pieces += [circlepoint.SteppedSweep(joint, span=conditions.span), motion]
+        pieces += [
+            circlepoint.SteppedSweep(joint, span=conditions.span, dwell=_dwell),
+            raised_cosine(conditions, joint),
+        ]
     thinning = max(1, math.ceil(_simulated_rate / conditions.rate))
     trajectory = circlepoint.joint_trajectory(chain.reference_configuration, pieces, conditions.rate * thinning, _pause)
+    resting = conditions.static_noise_std * math.sqrt(_dwell * conditions.rate)
+    moving = math.hypot(conditions.dynamic_noise_std, conditions.cable_noise_std)
     options = circlepoint.SimulationOptions(
-        noise_std=math.hypot(conditions.dynamic_noise_std, conditions.cable_noise_std),
+        noise_std=resting,
         encoder_counts_per_revolution=np.full(len(chain), conditions.encoder_counts),
         vibration=circlepoint.VibrationOptions(
             tangential_amplitude=conditions.tangential,
@@ -66,7 +70,9 @@ def record_arm(conditions: Conditions, seed: int) -> RecordedArm:
         seed=circlepoint.derive_seed(seed, 3),
     )
     log = circlepoint.simulate(chain, up, sensor, trajectory, options)
-    kept = (log.time, log.joint_positions, log.specific_force)
+    noise = np.random.default_rng(circlepoint.derive_seed(seed, 4)).normal(size=log.specific_force.shape)
+    noise *= math.sqrt(max(moving**2 - resting**2, 0.0)) * np.any(trajectory.velocity != 0.0, axis=1)[:, None]
+    kept = (log.time, log.joint_positions, log.specific_force + noise)
     recording = circlepoint.make_recording(*(np.ascontiguousarray(each[::thinning]) for each in kept))
     return RecordedArm(chain, recording)
 
