@@ -77,7 +77,7 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
     reasons = {
         "axis": (
             f"Noise alone would give {_milli(quiet[0])} mrad rms, with the scale factors {_milli(scales[0])}: they "
-            "are the cause. The best method estimates them from the magnitude of gravity over all joints' dwells."
+            "are the cause. The whole-arm estimate finds them with the axes: gravity has one magnitude at every rest."
         ),
         "centre_position": (
             f"Noise and vibration alone give {_milli(quiet[1])} mm rms, with the tolerance of the percussion distance "

@@ -26,10 +26,10 @@ _columns = (
     "regression, delay estimated",
 )
 _labels = {
-    "sensor": "… and frequency response of Table 1, noise by band",
-    "filter": "… and the 250 Hz filter",
-    "converter": "… and the multiplexed converter, 16 bits",
-    "encoders": "… and encoders read at 1 kHz",
+    "sensor": "… with frequency response of Table 1, noise by band",
+    "filter": "… with the 250 Hz filter",
+    "converter": "… with the multiplexed converter, 16 bits",
+    "encoders": "… with encoders read at 1 kHz",
 }
 
 
@@ -46,7 +46,7 @@ def acquisition_table(run: Runner, trials: int, found: Findings) -> Spread:
         "as simulated, a quarter second of rest around": replace(Conditions(), margin=MARGIN),
         "joints held by PD loops": held,
         **{_labels[part]: replace(held, acquisition=(part,)) for part in ACQUISITION},
-        "… and all four": acquired(Conditions()),
+        "… with all four": acquired(Conditions()),
     }
     rows = []
     for label, conditions in cases.items():
@@ -59,8 +59,8 @@ def acquisition_table(run: Runner, trials: int, found: Findings) -> Spread:
             id="acquisition",
             title="The acquisition of section 3, which the paper's simulation leaves out",
             explanation="Each part by itself on joints held by PD loops, then all. Filter and sensor delay the "
-            "readings, encoders read apart are up to a millisecond old; no two of these delays are the same. Gravity "
-            "is then subtracted at the wrong angle, and method 1 integrates the difference twice. The regression "
+            "readings; encoders read apart are up to a millisecond old, which takes some of it back. Gravity is "
+            "subtracted at the wrong angle, and method 1 integrates the difference twice. The regression "
             f"finds the delay from its own residual: {middle} ms [{low}, {high}]. With the encoder shifted by it, "
             "method 1 is as good as without the chain, so the delay is the cause. Where channels differ in their "
             "response, a little is left.",

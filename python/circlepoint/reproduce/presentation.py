@@ -61,7 +61,10 @@ FIGURES = {
         "Figure 7",
         "Power spectrum during a dynamic measurement (ten periods), and the bandwidth it suggests.",
     ),
-    "figure8": ("Figure 8", "Output of the accelerometer during a dynamic measurement, Butterworth filter of 20 Hz."),
+    "figure8": (
+        "Figure 8",
+        "Output of the accelerometer during a dynamic measurement, Butterworth filter of 20 Hz; vibration below.",
+    ),
     "figure9": (
         "Figure 9",
         "Trajectory of the accelerometer in O_w, and how well it is tracked without any position sensor.",

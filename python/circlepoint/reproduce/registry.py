@@ -197,7 +197,7 @@ STATED = (
         "rad",
         "mrad",
         1e3,
-        "standard deviation over ten repeats of a known misalignment",
+        "largest deviation from the mean of ten repeats of a known misalignment",
     ),
     Stated(
         "bandwidth",
