@@ -111,7 +111,8 @@ def angle_between_axes(run: Runner, trials: int, found: Findings) -> None:
         count,
         "Largest deviation of ten repeats from their mean, of a known misalignment. The paper's ± 0.3 mrad is its "
         "largest axis error, three times its standard deviation, and not a scatter of the angle: ours has a standard "
-        f"deviation of {1e3 * warm[3].median:.2f} mrad: an angle sees one of each axis' two components. The mean of ten is off by {1e3 * warm[4].median:.2f} mrad "
+        f"deviation of {1e3 * warm[3].median:.2f} mrad: an angle sees one of each axis' two components. The "
+        f"mean of ten is off by {1e3 * warm[4].median:.2f} mrad "
         f"[{1e3 * warm[4].low:.2f}, {1e3 * warm[4].high:.2f}]: the scale factors' share, which repeating does not "
         "show. The 0.4 mrad themselves are this individual arm's and cannot be reproduced.",
     )
