@@ -38,8 +38,8 @@ def delay_trial(conditions: Conditions, seed: int) -> float:
     return reading_delay(run_tests(draw_joint(conditions, seed), conditions, seed))
 
 
-def acquisition_table(run: Runner, trials: int, found: Findings) -> Spread:
-    """Study the acquisition chain part by part; return method 1's error behind the whole of it."""
+def acquisition_table(run: Runner, trials: int, found: Findings) -> tuple[Spread, Spread]:
+    """Study the acquisition chain part by part; return method 1's error (m) behind it, and its delay (s)."""
     run.begin("the acquisition of section 3")
     held = replace(acquired(Conditions()), acquisition=())
     cases = {
@@ -70,4 +70,4 @@ def acquisition_table(run: Runner, trials: int, found: Findings) -> Spread:
             factor=1e3,
         )
     )
-    return rows[-1][1][0]
+    return rows[-1][1][0], delays

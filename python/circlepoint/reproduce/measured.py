@@ -44,7 +44,7 @@ def causes(run: Runner, trials: int, found: Findings) -> None:
         "distance, 0.3 to 0.4 m": replace(base, distance=SHORT),
         "all three": as_measured(replace(base, distance=SHORT)),
     }
-    behind_chain = acquisition_table(run, trials, found)
+    behind_chain, delay = acquisition_table(run, trials, found)
     run.begin("the measured case")
     rows, together = [], {}
     for label, conditions in cases.items():
@@ -76,7 +76,8 @@ def causes(run: Runner, trials: int, found: Findings) -> None:
         "with cable noise and a low rate the converged position method comes to "
         f"{1e3 * together['position'].rms_of_ten.median:.0f} mm and the printed velocity method to "
         f"{1e3 * together['velocity_means'].rms_of_ten.median:.0f} mm. A fourth cause, which the paper does not name: "
-        "filter, sensor and encoders put about half a millisecond between reading and angle, which alone makes "
+        f"filter, sensor and encoders put {1e3 * delay.low:.1f} to {1e3 * delay.high:.1f} ms between reading and "
+        "angle, which alone make "
         f"{1e3 * behind_chain.median:.0f} mm of method 1, at any distance (table “The acquisition of section 3”).",
     )
 
