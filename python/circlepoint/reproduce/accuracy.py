@@ -66,7 +66,7 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
             explanation="Median over groups of ten trials of the root mean square error, and the interval of 95 % of "
             "the groups; the axis in mrad, the centres in mm. The axis owes its error to the scale factors, method 1 "
             "and the least squares of method 2 to the tolerance of the percussion distance, the printed method 2 to "
-            "its means.",
+            "the record's ends (next table).",
             columns=("axis, plane fit", *_titles()),
             rows=tuple(rows),
             unit="mrad, mm",
@@ -85,8 +85,8 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
             "“What the paper leaves open”)."
         ),
         "centre_velocity": (
-            f"The printed mean of |v|/|w| over nearly all samples costs most of it: {_milli(quiet[2])} mm rms with "
-            f"noise alone, by least squares {_milli(quiet[3])}. From which rate on a sample counts is not printed; "
+            "The printed mean of |v|/|w| counts samples near the record's ends, which the low-pass spoils: "
+            f"{_milli(quiet[2])} mm rms with noise alone, by least squares {_milli(quiet[3])}. From which rate on a sample counts is not printed; "
             "2 % of the peak gives the paper's figures (table “Method 2 as printed”)."
         ),
     }
