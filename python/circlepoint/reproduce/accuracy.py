@@ -86,7 +86,8 @@ def axis_table(run: Runner, trials: int, found: Findings) -> None:
         ),
         "centre_velocity": (
             "The printed mean of |v|/|w| counts samples near the record's ends, which the low-pass spoils: "
-            f"{_milli(quiet[2])} mm rms with noise alone, by least squares {_milli(quiet[3])}. From which rate on a sample counts is not printed; "
+            f"{_milli(quiet[2])} mm rms with noise alone, by least squares {_milli(quiet[3])}. "
+            "From which rate on a sample counts is not printed; "
             "2 % of the peak gives the paper's figures (table “Method 2 as printed”)."
         ),
     }
