@@ -1,6 +1,7 @@
-# make demo     set everything up, calibrate a simulated 7-joint arm, write its report to demo-result/
-# make test     set everything up, then ctest, pytest, ruff and mypy
-# make install  only the set-up: .venv/bin/circlepoint
+# make demo       set everything up, calibrate a simulated 7-joint arm, write its report to demo-result/
+# make test       set everything up, then ctest, pytest, ruff and mypy
+# make install    only the set-up: .venv/bin/circlepoint
+# make reproduce  every number and figure of the paper with ours, in reproduction/
 # Each target does its own set-up on a bare Debian 12 and is quick when there is nothing to do.
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
@@ -13,10 +14,10 @@ export CMAKE_CXX_COMPILER_LAUNCHER := ccache
 export CCACHE_BASEDIR := $(CURDIR)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
-.PHONY: help demo test install system ctest pytest lint stub bench accuracy clean
+.PHONY: help demo reproduce test install system ctest pytest lint stub bench accuracy clean
 
 help:
-	@sed -n 's/^# //p' Makefile | head -4
+	@sed -n 's/^# //p' Makefile | head -5
 
 # Debian packages, only when one is missing.
 system:
@@ -50,6 +51,9 @@ install: .venv/install.stamp
 demo: install
 	$(BIN)/circlepoint demo --out demo-result
 
+reproduce: install
+	$(BIN)/circlepoint reproduce --out reproduction
+
 ctest: system
 	cmake --preset release >/dev/null
 	cmake --build --preset release
@@ -78,4 +82,4 @@ stub: install .venv/dev.stamp
 test: install ctest pytest lint
 
 clean:
-	rm -rf build .venv demo-result
+	rm -rf build .venv demo-result reproduction

@@ -23,6 +23,10 @@ PERCUSSION_DISTANCE = 0.0182  # m, sec. 3.1
 CUTOFF = 10.0  # Hz, sec. 5
 HELD_FREQUENCY = 5.0  # Hz. Assumed; the 3 s of settling are the paper's
 REPEATS = 10  # sec. 4 and 5
+ACQUISITION = ("sensor", "filter", "converter", "encoders")
+"""Frequency response, noise by band and resolution of Table 1; the 250 Hz filter; the multiplexed converter with its
+bits; encoders read at 1 kHz."""
+MARGIN = 0.25  # s. Assumed; a record that starts with the motion cuts the lag of held joints off
 
 
 @dataclass(frozen=True)
@@ -43,8 +47,9 @@ class Conditions:
     periods: int = 1  # of eq. (11). Assumed: the paper does not say
     encoder_counts: float = ENCODER_COUNTS  # 0: exact
     distance: tuple[float, float] = (0.3, 0.7)  # m, sensor from axis. Assumed: the paper says less than 0.4 m, sec. 5
-    acquisition: bool = False  # the chain of sec. 3: filters, skew, encoders at 1 kHz, converter; noise by band
+    acquisition: tuple[str, ...] = ()  # parts of sec. 3's chain, of `ACQUISITION`
     held_frequency: float = 0.0  # Hz, of the joints' PD loops; 0: they obey
+    margin: float = 0.0  # s at rest, recorded before and after the motion
     bias_change: float = 0.0  # m/s^2, between the static and the dynamic test, in a random direction
 
     @property
@@ -67,8 +72,8 @@ SHORT = (0.3, 0.4)  # m, sec. 5: less than 0.4 m
 
 
 def acquired(conditions: Conditions) -> Conditions:
-    """Return the conditions with the acquisition chain of section 3 and joints held by PD loops."""
-    return replace(conditions, acquisition=True, held_frequency=HELD_FREQUENCY)
+    """Return the conditions with the acquisition chain of section 3, joints held by PD loops, and rest around."""
+    return replace(conditions, acquisition=ACQUISITION, held_frequency=HELD_FREQUENCY, margin=MARGIN)
 
 
 def as_measured(conditions: Conditions) -> Conditions:

@@ -43,7 +43,7 @@ def draw_figure6(signals: Mapping[str, Any]) -> Figure:
         figure, panel = _panel(3.6)
         for k, colour in enumerate(axis_colours):
             panel.plot(np.degrees(data["angle"]), data["force"][:, k], ".", markersize=4, color=colour)
-            _name_end(panel, np.degrees(data["angle"][-1]), data["force"][-1, k], _names[k], colour)
+        _name_ends(panel, np.degrees(data["angle"][-1]), data["force"][-1])
         panel.set_xlabel("joint angle, degrees")
         panel.set_title("specific force at rest, m/s², one point a pose")
         panel.set_xlim(0.0, 157.0)
@@ -83,17 +83,21 @@ def draw_figure7(signals: Mapping[str, Any]) -> Figure:
 
 
 def draw_figure8(signals: Mapping[str, Any]) -> Figure:
-    """Draw the three channels during the dynamic test, low-passed at 20 Hz over what was read."""
+    """Draw the three channels during the dynamic test, low-passed at 20 Hz, and what the filter takes out."""
     data = signals["figure8"]
     with figure_style():
-        figure, panel = _panel(4.0)
+        figure = Figure(figsize=(_width, 4.8))
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
+        figure.subplots_adjust(left=0.075, right=0.985, top=0.93, bottom=0.11, hspace=0.3)
         for k, colour in enumerate(axis_colours):
-            panel.plot(data["time"], data["raw"][:, k], color=colour, linewidth=0.5, alpha=0.3)
-            panel.plot(data["time"], data["filtered"][:, k], color=colour, linewidth=1.3)
-            _name_end(panel, data["time"][-1], data["filtered"][-1, k], _names[k], colour)
-        panel.set_xlim(0.0, 1.03 * data["time"][-1])
-        panel.set_xlabel("time, s")
-        panel.set_title("specific force, m/s²: read (pale) and low-passed at 20 Hz without phase shift")
+            upper.plot(data["time"], data["filtered"][:, k], color=colour, linewidth=1.3)
+            removed = data["raw"][:, k] - data["filtered"][:, k]
+            lower.plot(data["time"], removed, color=colour, linewidth=0.6, alpha=0.8)
+        _name_ends(upper, data["time"][-1], data["filtered"][-1])
+        upper.set_title("specific force, m/s², low-passed at 20 Hz without phase shift")
+        lower.set_title("what the filter takes out, m/s²")
+        lower.set_xlabel("time, s")
+        lower.set_xlim(0.0, 1.03 * data["time"][-1])
     return figure
 
 
@@ -112,13 +116,13 @@ def draw_figure9(signals: Mapping[str, Any]) -> Figure:
         left.annotate("centre of rotation", (-lever[0], -lever[1]), (6, 6), textcoords="offset points", fontsize=9.5)
         left.annotate("start", (0.0, 0.0), (6, -12), textcoords="offset points", fontsize=9.5)
         left.set_aspect("equal", adjustable="datalim")
-        left.set_xlabel("x in O_w, mm")
-        left.set_title("path, mm: reconstructed on the true one (wide, grey)")
+        left.set_xlabel("x$_w$, mm")
+        left.set_title("path over y$_w$, mm, on the true one (grey)")
         low, middle, high = 1e3 * tracking["quantiles"]
         right.fill_between(tracking["time"], low, high, color=_accent, alpha=0.16, linewidth=0)
         right.plot(tracking["time"], middle, color=_accent, linewidth=1.6)
         right.plot(tracking["time"], 1e3 * tracking["known"], color=_soft, linewidth=1.2, linestyle="--")
-        right.set_xlim(0.0, tracking["time"][-1])
+        right.set_xlim(0.0, _period(tracking["time"]))
         right.set_ylim(0.0, None)
         right.set_xlabel("time, s")
         right.set_title("distance from the true position, mm")
@@ -147,7 +151,7 @@ def draw_figure10(signals: Mapping[str, Any]) -> Figure:
         lower.plot(data["time"][inner], difference[inner], color=_accent, linewidth=0.8)
         lower.set_title("difference, mrad/s")
         lower.set_xlabel("time, s")
-        lower.set_xlim(0.0, data["time"][-1])
+        lower.set_xlim(0.0, _period(data["time"]))
     return figure
 
 
@@ -234,8 +238,26 @@ def _panel(height: float) -> tuple[Figure, Axes]:
     return figure, panel
 
 
-def _name_end(panel: Axes, x: float, y: float, name: str, colour: str) -> None:
-    panel.annotate(name, (x, y), (7, 0), textcoords="offset points", color=colour, va="center", fontweight="bold")
+def _name_ends(panel: Axes, x: float, ends: Array) -> None:
+    """Write each channel's name behind its curve's last point, apart from one another."""
+    low, high = panel.get_ylim()
+    place = -np.inf
+    for k in np.argsort(ends):
+        place = max(float(ends[k]), place + 0.07 * (high - low))
+        panel.annotate(
+            _names[k],
+            (x, place),
+            (7, 0),
+            textcoords="offset points",
+            color=axis_colours[k],
+            va="center",
+            fontweight="bold",
+        )
+
+
+def _period(time: Array) -> float:
+    """Return the end of the last sample's interval, so that the axis ends on a tick."""
+    return float(time[-1] + time[1] - time[0])
 
 
 def _curves(panel: Axes, places: Array, curves: Mapping[str, Sequence[float]]) -> None:

@@ -15,7 +15,7 @@ class Ours:
     paper_method: Spread | None = None
     """By the paper's own method (as printed, errata corrected)."""
     best_method: Spread | None = None
-    """By the regression, with the sensor's errors estimated from the magnitude of gravity."""
+    """By the whole-arm estimate where there is an arm, by the regression for a joint by itself."""
     trials: int = 0
     remark: str = ""
     """What was found: how the two compare, and why where they differ."""

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _width = 9.6  # in
 _ink, _soft, _accent = (palette[role][0] for role in ("ink", "soft", "accent"))
 _view = np.array([[-0.62, 0.785, 0.0], [-0.33, -0.26, 0.907]])  # rows: right and up of the drawing, in O_w
+_upward = 2  # channel z
 _turn = math.radians(70.0)
 _lever = np.array([0.9, 0.0, 0.35])  # of the drawing, in O_w
 
@@ -134,5 +135,8 @@ def _frame(panel: Axes, origin: Array, rotation: Array, name: str, length: float
     for k, colour in enumerate(axis_colours):
         end = origin + length * rotation[:, k]
         _arrow(panel, _seen(origin), _seen(end), colour)
-        _text(panel, origin + 1.22 * length * rotation[:, k], f"{'xyz'[k]}$_{name}$", colour)
+        place = _seen(origin + 1.22 * length * rotation[:, k])
+        if name == "w" and k == _upward:
+            place += [0.07, -0.1]  # off the joint's axis
+        _put(panel, place, f"{'xyz'[k]}$_{name}$", colour)
     panel.plot(*_seen(origin), "o", color=_ink, markersize=5)

@@ -89,7 +89,7 @@ def dynamic_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array
     rate = conditions.rate * thinning
     chain = _acquisition(conditions) if conditions.acquisition else None
     analogue = rate * (chain.oversampling if chain else 1)
-    motion = circlepoint.joint_trajectory(np.zeros(1), [raised_cosine(conditions)], analogue)
+    motion = circlepoint.joint_trajectory(np.zeros(1), [raised_cosine(conditions)], analogue, conditions.margin)
     options = circlepoint.SimulationOptions(
         noise_std=math.hypot(conditions.dynamic_noise_std, conditions.cable_noise_std),
         encoder_counts_per_revolution=np.array([conditions.encoder_counts]),
@@ -113,27 +113,28 @@ def dynamic_test(joint: Joint, conditions: Conditions, seed: int) -> tuple[Array
 
 
 def _acquisition(conditions: Conditions) -> circlepoint.AcquisitionOptions:
-    """Return the chain of section 3 behind this sensor; its readings are corrected already."""
-    chain = circlepoint.paper_acquisition()
-    return circlepoint.AcquisitionOptions(
-        oversampling=chain.oversampling,
-        noise_bands=conditions.sensor.noise_bands,
-        response_bands=conditions.sensor.response_bands,
-        resolution=conditions.sensor.resolution,
-        signal_cutoff=chain.signal_cutoff,
-        filter_order=chain.filter_order,
-        channel_skew=chain.channel_skew,
-        converter_bits=chain.converter_bits,
-        converter_range=chain.converter_range,
-        converter_gain=chain.converter_gain,
-        encoder_rate=chain.encoder_rate,
-    )
+    """Return the parts asked for of section 3's chain behind this sensor; its readings are corrected already."""
+    whole = circlepoint.paper_acquisition()
+    chain = circlepoint.AcquisitionOptions(oversampling=whole.oversampling)
+    if "sensor" in conditions.acquisition:
+        chain.noise_bands = conditions.sensor.noise_bands
+        chain.response_bands = conditions.sensor.response_bands
+        chain.resolution = conditions.sensor.resolution
+    if "filter" in conditions.acquisition:
+        chain.signal_cutoff, chain.filter_order = whole.signal_cutoff, whole.filter_order
+    if "converter" in conditions.acquisition:
+        chain.channel_skew = whole.channel_skew
+        chain.converter_bits = whole.converter_bits
+        chain.converter_range, chain.converter_gain = whole.converter_range, whole.converter_gain
+    if "encoders" in conditions.acquisition:
+        chain.encoder_rate = whole.encoder_rate
+    return chain
 
 
-def raised_cosine(conditions: Conditions) -> circlepoint.RaisedCosine:
+def raised_cosine(conditions: Conditions, joint: int = 0) -> circlepoint.RaisedCosine:
     """Return the dynamic test's motion, eq. (11)."""
     return circlepoint.RaisedCosine(
-        joint=0, span=conditions.span, frequency=conditions.frequency, duration=conditions.duration
+        joint=joint, span=conditions.span, frequency=conditions.frequency, duration=conditions.duration
     )
 
 

@@ -142,7 +142,7 @@ STATED = (
         "m",
         "mm",
         1e3,
-        f"printed means over samples whose rate is above 0.5 % of its peak; {_ten}",
+        f"printed means over samples whose rate is above 2 % of its peak; {_ten}",
     ),
     Stated(
         "centre_velocity_std",
@@ -197,7 +197,7 @@ STATED = (
         "rad",
         "mrad",
         1e3,
-        "standard deviation over ten repeats of a known misalignment",
+        "largest deviation from the mean of ten repeats of a known misalignment",
     ),
     Stated(
         "bandwidth",

@@ -112,8 +112,9 @@ def spectrum(run: Runner, trials: int, found: Findings) -> None:
         None,
         count,
         (
-            f"The last harmonic of theta(t) above noise and vibration is at {last.low:g} to {last.high:g} Hz, and all "
-            f"but a millionth of the signal's power lies below {most:g} Hz. That is what must pass; 10 Hz keeps it "
+            f"The last harmonic of theta(t) above noise and vibration is at {last.median:g} Hz "
+            f"[{last.low:g}, {last.high:g}], and all but a millionth of the "
+            f"signal's power lies below {most:g} Hz. That is what must pass; 10 Hz keeps it "
             "with room for the filter's roll-off (below 5 Hz both centre methods lose, figure “Centre error over "
             "each condition”) and still ends below the vibration."
         ),

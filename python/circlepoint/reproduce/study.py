@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 TRIALS = 200
-STEPS = 16
+STEPS = 18
 
 
 @dataclass(frozen=True)
