@@ -1,8 +1,8 @@
-// Calibrate an arm from one log: simulate it, find the tests in it, estimate every axis with its uncertainty.
+// Calibrate an arm from one log: simulate it, find the tests in it, estimate all axes at once with their uncertainty.
 #include <cstdio>
 
 #include "circlepoint/chain/screws_to_dh.hpp"
-#include "circlepoint/identification/joint_calibration.hpp"
+#include "circlepoint/identification/whole_arm.hpp"
 #include "circlepoint/simulation/simulate.hpp"
 
 namespace cp = circlepoint;
@@ -24,10 +24,10 @@ int main() {
   sensor.percussion_distance.setConstant(0.0182);
   const cp::Recording log = cp::simulate(arm, up_gravity, sensor, motion, {.noise_std = 0.01, .seed = 1});
 
-  cp::JointCalibrationOptions options;
+  cp::WholeArmOptions options;
   options.sensor.bias_std = 0.005;
   options.sensor.percussion_distance_std = 0.03;
-  const cp::JointCalibration result = cp::calibrate_joints(log, cp::segment(log), options);
+  const cp::JointCalibration result = cp::calibrate_whole_arm(log, cp::segment(log), options).joints;
 
   std::puts("joint  direction                    nearest point, mm         std mrad, mm   error mrad, mm");
   const cp::ScrewChain truth = cp::rebase(arm, result.reference_configuration);

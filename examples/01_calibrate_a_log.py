@@ -1,4 +1,4 @@
-"""Calibrate an arm from one log: simulate it, find the tests in it, estimate every axis with its uncertainty."""
+"""Calibrate an arm from one log: simulate it, find the tests in it, estimate all axes at once with their uncertainty."""
 
 import numpy as np
 
@@ -13,9 +13,9 @@ up_gravity = cp.STANDARD_GRAVITY * np.array([0.48, 0.60, 0.64])
 sensor = cp.AccelerometerModel(bias=[0.004, -0.006, 0.002], percussion_distance=[0.0182] * 3)
 log = cp.simulate(arm, up_gravity, sensor, motion, cp.SimulationOptions(noise_std=0.01, seed=1))
 
-options = cp.JointCalibrationOptions()
+options = cp.WholeArmOptions()
 options.sensor = cp.AccelerometerSpecification(bias_std=0.005, percussion_distance_std=0.03)
-result = cp.calibrate_joints(log, cp.segment(log), options)
+result = cp.calibrate_whole_arm(log, cp.segment(log), options).joints
 
 print("joint  direction                    nearest point, mm         std mrad, mm   error mrad, mm")
 for joint, truth in zip(result.joints, cp.rebase(arm, result.reference_configuration).axes, strict=True):

@@ -114,7 +114,7 @@ NotIdentifiable
 
 References
 ----------
-docs/method, section 5.
+docs/method, section 8.
 )");
 }
 

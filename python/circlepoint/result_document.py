@@ -208,7 +208,14 @@ def _sensor_entry(method: str, joints: circlepoint.JointCalibration) -> Document
 
 def _percussion_entry(joints: circlepoint.JointCalibration) -> Document:
     """Return the channels' common distance, weighted by their information, and each channel's own."""
-    weight = joints.percussion_distance_std**-2.0
+    std = joints.percussion_distance_std
+    if not std.all():  # known beforehand
+        return {
+            "estimate": float(np.mean(joints.percussion_distance)),
+            "std": 0.0,
+            "channels": estimate_entry(joints.percussion_distance, std),
+        }
+    weight = std**-2.0
     return {
         "estimate": float(np.sum(weight * joints.percussion_distance) / np.sum(weight)),
         "std": float(np.sum(weight) ** -0.5),

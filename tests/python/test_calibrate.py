@@ -56,7 +56,9 @@ def recorded(seed, joints=range(4), vibration=0.0):
         seed=seed,
     )
     sensor = circlepoint.draw_accelerometer(specification, seed)
-    trajectory = circlepoint.joint_trajectory(START, pieces, 200.0, 0.6)
+    # Where within its count a joint stands at the start is another thing in every recording.
+    start = START + np.random.default_rng(seed).uniform(0.0, 1e-4, 4)
+    trajectory = circlepoint.joint_trajectory(start, pieces, 200.0, 0.6)
     return circlepoint.simulate(four_joints(), UP, sensor, trajectory, options)
 
 

@@ -1,5 +1,5 @@
 #pragma once
-// One maximum-likelihood estimate of everything a recording says about an arm (docs/method, section 5).
+// One maximum-likelihood estimate of everything a recording says about an arm (docs/method, section 8).
 //
 // Unknown at once: every joint's line, up-gravity, the sensor's own errors, the delay between encoders and sensor, and on request
 // the clocks' rate, the encoders' gains and eccentricities; a gyroscope, where recorded, with its own bias and matrix. Each

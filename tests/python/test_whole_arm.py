@@ -1,0 +1,264 @@
+"""The whole-arm estimate: any motion, every unknown, an honest account of what the data show."""
+
+import numpy as np
+import pytest
+
+import circlepoint as cp
+from circlepoint.sensor_presets import load_sensor
+
+UP = cp.STANDARD_GRAVITY * np.array([0.48, -0.6, 0.64])
+START = np.array([0.2, -0.5, 0.9])
+LINES = [([0.9, 0.1, 0.3], [0.1, 0.5, -0.3]), ([0.0, 0.2, 1.0], [-0.4, 0.1, 0.1]), ([0.2, 1.0, 0.3], [0.2, 0.0, 0.3])]
+RATE = 200.0
+REVOLUTE = cp.JointType.revolute
+
+
+def chain_of(lines, types=None):
+    types = types or [REVOLUTE] * len(lines)
+    axes = [
+        cp.ScrewAxis(kind, cp.make_line(np.array(direction), np.array(point)))
+        for kind, (direction, point) in zip(types, lines, strict=True)
+    ]
+    return cp.ScrewChain(axes, START)
+
+
+def sweeps_of(joints=range(3), span=2.4):
+    pieces = []
+    for joint in joints:
+        pieces.append(cp.SteppedSweep(joint=joint, steps=12, span=span, dwell=0.6, move=0.5, return_duration=1.5))
+        pieces.append(cp.RaisedCosine(joint=joint, span=span, frequency=0.5, duration=4.0))
+    return pieces
+
+
+def free(duration=40.0, amplitude=(1.2, 1.2, 1.2)):
+    return [cp.MultiJointMotion(duration=duration, amplitude=np.array(amplitude), seed=3)]
+
+
+def recorded(pieces, *, chain=None, up=UP, sensor=None, noise=0.005, seed=1, rate=RATE, **options):
+    sensor = sensor or cp.draw_accelerometer(load_sensor("qa700"), seed)
+    motion = cp.joint_trajectory(START, pieces, rate, 0.6)
+    return cp.simulate(
+        chain or chain_of(LINES), up, sensor, motion, cp.SimulationOptions(noise_std=noise, seed=seed, **options)
+    )
+
+
+def estimate(recording, *, sensor="qa700", segmentation=None, **options):
+    chosen = cp.WholeArmOptions()
+    chosen.sensor = load_sensor(sensor)
+    chosen.reference_configuration = START
+    for name, value in options.items():
+        setattr(chosen, name, value)
+    return cp.calibrate_whole_arm(recording, segmentation or cp.segment(recording), chosen)
+
+
+def errors_and_std(result, chain):
+    errors, std = [], []
+    for mine, true in zip(result.joints.joints, chain.axes, strict=True):
+        errors.append(cp.local_coordinates(mine.axis.screw.line, true.line))
+        std.append(np.sqrt(np.diag(mine.axis.covariance)))
+    return np.array(errors), np.array(std)
+
+
+def value(result, name):
+    return next(p for p in result.parameters if p.name == name)
+
+
+def assert_found(result, chain, limit=1e-4):
+    errors, std = errors_and_std(result, chain)
+    assert np.abs(errors).max() < limit
+    assert np.abs(errors / std).max() < 4.5
+
+
+@pytest.mark.parametrize("pieces", [sweeps_of(), free()], ids=["tests", "all joints at once"])
+def test_every_line_is_found_from_tests_and_from_free_motion_without_a_nominal_arm(pieces):
+    result = estimate(recorded(pieces))
+    assert result.converged
+    assert_found(result, chain_of(LINES))
+    assert result.rank == len(result.parameters)
+
+
+def test_single_joint_statistics_and_the_general_model_agree():
+    recording = recorded(sweeps_of())
+    options = cp.JointCalibrationOptions()
+    options.sensor = load_sensor("qa700")
+    options.reference_configuration = START
+    alone = cp.calibrate_joints(recording, cp.segment(recording), options)
+    whole = estimate(recording)
+    for one, all_of_them in zip(alone.joints, whole.joints.joints, strict=True):
+        difference = cp.local_coordinates(one.axis.screw.line, all_of_them.axis.screw.line)
+        std = np.sqrt(np.diag(one.axis.covariance) + np.diag(all_of_them.axis.covariance))
+        assert np.abs(difference / std).max() < 4.5
+
+
+def test_the_result_does_not_depend_on_the_number_of_threads():
+    recording = recorded(free(20.0))
+    one, four = estimate(recording, threads=1), estimate(recording, threads=4)
+    np.testing.assert_array_equal(one.covariance, four.covariance)
+    assert [p.value for p in one.parameters] == [p.value for p in four.parameters]
+
+
+def test_a_delay_of_the_sensor_is_found():
+    recording = recorded(free())
+    late = 0.002
+    shifted = cp.make_recording(
+        recording.time,
+        np.ascontiguousarray(
+            np.stack(
+                [np.interp(recording.time + late, recording.time, q) for q in np.asarray(recording.joint_positions).T],
+                axis=1,
+            )
+        ),
+        recording.specific_force,
+    )
+    result = estimate(shifted, clock_offset=cp.ParameterTreatment(std=0.01))
+    assert value(result, "clock_offset").value == pytest.approx(late, abs=2e-5)
+    assert_found(result, chain_of(LINES), 1e-3)
+
+
+def test_a_scale_error_of_three_percent_is_found():
+    sensor = cp.AccelerometerModel(scale=[0.03, -0.01, 0.02])
+    result = estimate(
+        recorded(sweeps_of(), sensor=sensor), sensor="ideal", scale=cp.ParameterTreatment(), bias=cp.ParameterTreatment()
+    )
+    found = [value(result, f"scale_{axis}").value for axis in "xyz"]
+    np.testing.assert_allclose(found, [0.03, -0.01, 0.02], atol=1e-4)
+    assert_found(result, chain_of(LINES), 3e-4)
+
+
+def test_a_vertical_base_joint_is_found_where_the_others_tilt_the_sensor():
+    up = cp.STANDARD_GRAVITY * np.array([0.0, 0.0, 1.0])
+    lines = [([0.0, 0.0, 1.0], [0.1, 0.5, -0.3]), *LINES[1:]]
+    lines[1] = ([0.0, 1.0, 0.1], [-0.4, 0.1, 0.1])
+    result = estimate(recorded(sweeps_of(), chain=chain_of(lines), up=up))
+    assert_found(result, chain_of(lines), 3e-4)
+
+
+def test_parallel_axes_cost_nothing():
+    lines = [([0.0, 1.0, 0.0], [0.0, 0.0, 0.8]), ([0.0, 1.0, 0.0], [0.0, 0.1, 0.4]), ([0.9, 0.0, 0.3], [0.05, 0.0, 0.1])]
+    result = estimate(recorded(sweeps_of(), chain=chain_of(lines)))
+    assert_found(result, chain_of(lines))
+
+
+def test_a_sliding_joint_in_the_chain_is_found():
+    types = [REVOLUTE, cp.JointType.prismatic, REVOLUTE]
+    chain = chain_of(LINES, types)
+    pieces = [
+        *sweeps_of([0]),
+        cp.RaisedCosine(joint=1, span=0.3, frequency=0.5, duration=6.0),
+        *sweeps_of([2]),
+    ]
+    recording = recorded(pieces, chain=chain)
+    segmentation = cp.segment(recording, cp.SegmentationOptions(joint_types=types))
+    result = estimate(recording, segmentation=segmentation, joint_types=types)
+    slide = result.joints.joints[1].axis
+    assert slide.screw.type == cp.JointType.prismatic
+    error = cp.local_coordinates(slide.screw.line, cp.make_line(chain.axes[1].line.direction, slide.screw.line.point))
+    assert np.abs(error[:2]).max() < 2e-4
+    assert np.abs(error[:2] / np.sqrt(np.diag(slide.covariance)[:2])).max() < 4.5
+
+
+def test_a_gyroscope_helps_and_its_own_errors_are_found():
+    motion = cp.joint_trajectory(START, free(20.0), RATE, 0.6)
+    options = cp.SimulationOptions(noise_std=0.02, seed=4, angular_velocity_noise_std=0.002)
+    recording = cp.simulate(chain_of(LINES), UP, cp.AccelerometerModel(bias=[0.02, 0.01, -0.03]), motion, options)
+    with_it = estimate(recording, sensor="mems")
+    without = estimate(recording, sensor="mems", use_gyroscope=False)
+    assert with_it.gyroscope_used
+    assert not without.gyroscope_used
+    assert_found(with_it, chain_of(LINES), 2e-3)
+    np.testing.assert_allclose(with_it.gyroscope_matrix, np.eye(3), atol=2e-3)
+    for mine, theirs in zip(with_it.joints.joints, without.joints.joints, strict=True):
+        assert mine.axis.direction_std() <= 1.02 * theirs.axis.direction_std()
+
+
+def test_a_joint_that_never_moves_has_no_line_and_the_others_do():
+    result = estimate(recorded(sweeps_of([0, 2])))
+    assert [joint.axis is not None for joint in result.joints.joints] == [True, False, True]
+    assert "never moves" in result.joints.joints[1].reason
+
+
+def test_nothing_moves_is_an_error_that_says_so():
+    with pytest.raises(cp.NotIdentifiable, match="no joint moves"):
+        estimate(recorded([cp.Dwell(5.0)]))
+
+
+def test_a_short_arc_is_known_badly_and_said_to_be():
+    short = estimate(recorded(sweeps_of(span=0.12), noise=0.05))
+    wide = estimate(recorded(sweeps_of(), noise=0.05))
+    for one, other in zip(short.joints.joints, wide.joints.joints, strict=True):
+        assert one.axis is None or one.axis.direction_std() > 5 * other.axis.direction_std()
+    assert any(joint.axis is None for joint in short.joints.joints)
+    assert all(joint.reason for joint in short.joints.joints if joint.axis is None)
+    assert short.weak
+    assert all(";" in weak.description for weak in short.weak)
+
+
+def test_gravity_that_does_not_turn_leaves_no_line():
+    # One joint about the vertical: bias and gravity are one.
+    up = cp.STANDARD_GRAVITY * np.array([0.0, 0.0, 1.0])
+    chain = cp.ScrewChain([cp.ScrewAxis(REVOLUTE, cp.make_line(np.array([0.0, 0.0, 1.0]), np.array([0.4, 0.0, 0.0])))], START[:1])
+    motion = cp.joint_trajectory(START[:1], [cp.RaisedCosine(joint=0, span=2.4, frequency=0.5, duration=6.0)], RATE, 0.6)
+    recording = cp.simulate(chain, up, cp.AccelerometerModel(bias=[0.02, 0.0, 0.0]), motion, cp.SimulationOptions(noise_std=0.005))
+    options = cp.WholeArmOptions()
+    options.sensor = load_sensor("mems")
+    result = cp.calibrate_whole_arm(recording, cp.segment(recording), options)
+    joint = result.joints.joints[0]
+    assert joint.axis is None or joint.axis.direction_std() > 1e-3
+
+
+def test_knocks_are_cut_out_and_counted():
+    recording = recorded(sweeps_of())
+    force = np.array(recording.specific_force)
+    moving = np.flatnonzero(np.abs(np.gradient(np.asarray(recording.joint_positions)[:, 0])) > 0.01)
+    for at in moving[100::400]:
+        force[at : at + 4] += [3.0, -2.0, 4.0]
+    knocked = cp.make_recording(recording.time, recording.joint_positions, force)
+    result = estimate(knocked)
+    assert result.outliers > 0
+    assert_found(result, chain_of(LINES), 2e-4)
+
+
+def test_residuals_on_data_not_used_are_those_of_the_noise():
+    result = estimate(recorded(sweeps_of()))
+    assert {stretch.name for stretch in result.stretches} == {"joint 1", "joint 2", "joint 3", "dwells"}
+    for stretch in result.stretches:
+        assert 0.8 < stretch.held_out_normalized_rms < 1.3
+        assert stretch.held_out_rms >= 0.99 * stretch.residual_rms
+
+
+def test_encoder_gains_are_found_on_request():
+    recording = recorded(sweeps_of(), noise=0.002)
+    positions = np.array(recording.joint_positions)
+    positions[:, 1] = START[1] + (positions[:, 1] - START[1]) / 1.002
+    result = estimate(
+        cp.make_recording(recording.time, positions, recording.specific_force),
+        encoder_gain=cp.ParameterTreatment(std=0.01),
+    )
+    assert result.encoder_gain[1] == pytest.approx(0.002, abs=1e-4)
+    assert abs(result.encoder_gain[0]) < 1e-4
+
+
+def test_intervals_are_honest_in_free_motion_with_vibration():
+    # 12 coordinates a seed, 20 seeds: the mean normalised square is 1 +- 0.09 where they are independent.
+    squares = []
+    for seed in range(20):
+        vibration = cp.VibrationOptions(tangential_amplitude=0.05, orthogonal_amplitude=0.005, frequency_max=60.0)
+        errors, std = errors_and_std(
+            estimate(recorded(free(20.0), seed=seed, noise=0.01, vibration=vibration)), chain_of(LINES)
+        )
+        squares.append(np.mean((errors / std) ** 2))
+    assert 0.6 < np.mean(squares) < 1.5
+
+
+@pytest.mark.parametrize(
+    ("field", "bad", "words"),
+    [
+        ("cutoff", 500.0, "half the sample rate"),
+        ("encoder_resolution", np.ones(2), "one per joint"),
+        ("gravity_magnitude", -9.8, "local magnitude"),
+        ("max_passes", 0, "give 1 or more"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused(field, bad, words):
+    with pytest.raises(cp.InvalidInput, match=words):
+        estimate(recorded(free(10.0)), **{field: bad})
