@@ -956,8 +956,18 @@ class StaticIntervalOptions:
     """
     What counts as standing still.
     """
-    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05) -> None:
+    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05, joint_types: collections.abc.Sequence[JointType] = [], metres_per_radian: typing.SupportsFloat | typing.SupportsIndex = 0.2) -> None:
         ...
+    @property
+    def joint_types(self) -> list[JointType]:
+        """
+        base to tip; empty: all revolute
+        """
+    @property
+    def metres_per_radian(self) -> float:
+        """
+        m: a prismatic joint's travel that counts as a radian of every threshold
+        """
     @property
     def min_dwell(self) -> float:
         """
@@ -966,7 +976,7 @@ class StaticIntervalOptions:
     @property
     def min_velocity(self) -> float:
         """
-        rad/s or m/s: what is slower is at rest
+        rad/s: what is slower is at rest
         """
     @property
     def quiet_ratio(self) -> float:
@@ -1108,12 +1118,12 @@ class SegmentationOptions(StaticIntervalOptions):
     """
     What counts as a dwell, a single-joint motion and a test.
     """
-    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05, others_ratio: typing.SupportsFloat | typing.SupportsIndex = 0.1, others_travel: typing.SupportsFloat | typing.SupportsIndex = 0.06, min_travel: typing.SupportsFloat | typing.SupportsIndex = 0.03, min_partial: typing.SupportsFloat | typing.SupportsIndex = 0.5, configuration_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> None:
+    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05, others_ratio: typing.SupportsFloat | typing.SupportsIndex = 0.1, others_travel: typing.SupportsFloat | typing.SupportsIndex = 0.06, min_travel: typing.SupportsFloat | typing.SupportsIndex = 0.03, min_partial: typing.SupportsFloat | typing.SupportsIndex = 0.5, configuration_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.1, joint_types: collections.abc.Sequence[JointType] = [], metres_per_radian: typing.SupportsFloat | typing.SupportsIndex = 0.2) -> None:
         ...
     @property
     def configuration_tolerance(self) -> float:
         """
-        rad or m: the same test, if every other joint is within this
+        rad: the same test, if every other joint is within this
         """
     @property
     def min_partial(self) -> float:
@@ -1123,7 +1133,7 @@ class SegmentationOptions(StaticIntervalOptions):
     @property
     def min_travel(self) -> float:
         """
-        rad or m: shorter motions are ignored
+        rad: shorter motions are ignored
         """
     @property
     def others_ratio(self) -> float:
@@ -1133,7 +1143,7 @@ class SegmentationOptions(StaticIntervalOptions):
     @property
     def others_travel(self) -> float:
         """
-        rad or m: others may not yield more than this over a motion
+        rad: others may not yield more than this over a motion
         """
 class AxisDirectionFit:
     """
@@ -1536,7 +1546,7 @@ class JointCalibrationOptions:
     @property
     def encoder_resolution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        (n,) rad a count; empty: from the data
+        (n,) rad or m a count; empty: from the data
         """
     @encoder_resolution.setter
     def encoder_resolution(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None:
@@ -1588,6 +1598,21 @@ class TestFit:
     One joint test's fit, with the signals to look at it.
     """
     @property
+    def acceleration_rms(self) -> float:
+        """
+        m/s^2, prismatic: of the joint, filtered
+        """
+    @property
+    def acceleration_scale(self) -> float:
+        """
+        prismatic: acceleration read by that of the encoder; 1 where both are right
+        """
+    @property
+    def acceleration_scale_std(self) -> float:
+        """
+        noise and the sensor's scale
+        """
+    @property
     def condition_number(self) -> float:
         ...
     @property
@@ -1624,7 +1649,7 @@ class TestFit:
     @property
     def dwell_positions(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        (K,) rad
+        (K,) rad or m
         """
     @property
     def dynamic_noise_std(self) -> float:
@@ -1676,7 +1701,7 @@ class TestFit:
     @property
     def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        (M,) rad
+        (M,) rad or m
         """
     @property
     def rank(self) -> int:
@@ -1701,6 +1726,9 @@ class TestFit:
         """
         (M,) s
         """
+    @property
+    def type(self) -> JointType:
+        ...
 class JointEstimate:
     """
     One joint's axis, or why there is none.
@@ -2017,7 +2045,7 @@ class SimulationOptions:
     range : float, m/s^2
         Readings clip at plus and minus this; 0 for no clipping.
     encoder_counts_per_revolution : (n,) array_like
-        0 for an exact encoder; empty for all exact. Prismatic joints are always exact.
+        Per metre for a prismatic joint; 0 for an exact encoder; empty for all exact.
     bias_drift : (3,) array_like, m/s^2
         Reached linearly from zero over the recording.
     compliance : (n,) array_like, rad per m^2/s^2 (prismatic: m per m/s^2)
@@ -2089,7 +2117,7 @@ def align_clocks(joint_time: typing.Annotated[numpy.typing.NDArray[numpy.float64
     NotIdentifiable
         No motion from which a delay could be measured; the message says what to record.
     """
-def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.Sequence[Line], length: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.Sequence[Line], length: typing.SupportsFloat | typing.SupportsIndex = 0.5, types: collections.abc.Sequence[JointType] = []) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     The rigid transform that brings lines closest to their counterparts, such as nominal axes to calibrated ones.
 
@@ -2099,6 +2127,8 @@ def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.
         In correspondence, m.
     length : float
         m; weighs a radian of direction against a metre of position.
+    types : list of JointType
+        One a line, or none: all revolute. Of a prismatic joint's line only the direction counts.
 
     Returns
     -------
@@ -2108,7 +2138,7 @@ def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.
     Raises
     ------
     InvalidInput
-        Different numbers of lines, or none.
+        Different numbers of lines or types, or no lines.
     """
 def analyse_timeline(time: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], options: TimelineOptions = ...) -> TimelineReport:
     """
@@ -3082,17 +3112,17 @@ def rebase(chain: ScrewChain, reference_configuration: typing.Annotated[numpy.ty
     """
 def rest_band(encoder_step: typing.SupportsFloat | typing.SupportsIndex, options: StaticIntervalOptions = ...) -> float:
     """
-    The band a joint at rest stays in for `rest_window` seconds.
+    The band a revolute joint at rest stays in for `rest_window` seconds.
 
     Parameters
     ----------
-    encoder_step : float, rad or m
+    encoder_step : float, rad
     options : StaticIntervalOptions
 
     Returns
     -------
     float
-        The larger of 1.5 encoder steps and `min_velocity * rest_window`, rad or m.
+        The larger of 1.5 encoder steps and `min_velocity * rest_window`, rad.
     """
 def retract(line: Line, local: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 1]"]) -> Line:
     """
