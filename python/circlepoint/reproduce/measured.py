@@ -78,7 +78,7 @@ def causes(run: Runner, trials: int, found: Findings) -> None:
         f"{1e3 * together['velocity_means'].rms_of_ten.median:.0f} mm. A fourth cause, which the paper does not name: "
         f"filter, sensor and encoders put {1e3 * delay.low:.1f} to {1e3 * delay.high:.1f} ms between reading and "
         "angle, which alone make "
-        f"{1e3 * behind_chain.median:.0f} mm of method 1, at any distance (table “The acquisition of section 3”).",
+        f"{1e3 * behind_chain.median:.0f} mm of method 1 (table “The acquisition of section 3”).",
     )
 
 
