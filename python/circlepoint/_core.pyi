@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -542,6 +542,137 @@ class ModifiedDhConversion:
     def tool(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
         """
         (4, 4).
+        """
+class RowForm(enum.Enum):
+    """
+    Which four of a row's five parameters it has.
+    """
+    dh = ...
+    hayati = ...
+class HayatiRow:
+    """
+    A Denavit-Hartenberg row (beta = 0) or a Hayati row (d = 0), at q = 0.
+    """
+    def __eq__(self, arg0: object) -> bool:
+        ...
+    def __getstate__(self) -> tuple[float, float, float, float, float, RowForm]:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, a: typing.SupportsFloat | typing.SupportsIndex = 0.0, alpha: typing.SupportsFloat | typing.SupportsIndex = 0.0, d: typing.SupportsFloat | typing.SupportsIndex = 0.0, theta: typing.SupportsFloat | typing.SupportsIndex = 0.0, beta: typing.SupportsFloat | typing.SupportsIndex = 0.0, form: RowForm = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None:
+        ...
+    @property
+    def a(self) -> float:
+        """
+        m.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        rad.
+        """
+    @property
+    def beta(self) -> float:
+        """
+        rad.
+        """
+    @property
+    def d(self) -> float:
+        """
+        m.
+        """
+    @property
+    def form(self) -> RowForm:
+        ...
+    @property
+    def theta(self) -> float:
+        """
+        rad.
+        """
+class HayatiChain:
+    """
+    A serial chain of Denavit-Hartenberg and Hayati rows.
+
+    ``T_base_sensor(q) = base T_0_1(q_1) ... T_n-1_n(q_n) tool``; a revolute joint adds q to theta, a prismatic one to d.
+    """
+    def __getstate__(self) -> tuple[list[HayatiRow], list[JointType], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"], typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]]:
+        ...
+    def __init__(self, rows: collections.abc.Sequence[HayatiRow], types: collections.abc.Sequence[JointType], base: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 4]"] = ..., tool: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 4]"] = ...) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None:
+        ...
+    def size(self) -> int:
+        """
+        Number of joints.
+        """
+    @property
+    def base(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        T_base_0, (4, 4).
+        """
+    @property
+    def rows(self) -> list[HayatiRow]:
+        """
+        Base to tip.
+        """
+    @property
+    def tool(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        T_n_sensor, (4, 4).
+        """
+    @property
+    def types(self) -> list[JointType]:
+        """
+        One a row.
+        """
+class HayatiConversion:
+    """
+    Rows read from joint axes, and which parameters are a choice.
+    """
+    @property
+    def chain(self) -> HayatiChain:
+        """
+        With base and tool: moves as the screw chain does.
+        """
+    @property
+    def free(self) -> typing.Annotated[numpy.typing.NDArray[numpy.bool], "[m, 5]"]:
+        """
+        (n, 5) bool, order a, alpha, d, theta, beta: a choice, not determined by the axes.
+        """
+class ChainAlignment:
+    """
+    Where one arm's chain lies on another's, and how far its encoders are off.
+    """
+    @property
+    def T_target_source(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        (4, 4).
+        """
+    @property
+    def converged(self) -> bool:
+        ...
+    @property
+    def direction_rms(self) -> float:
+        """
+        rad, left between the axes.
+        """
+    @property
+    def distance_rms(self) -> float:
+        """
+        m, left between the revolute axes.
+        """
+    @property
+    def joint_offsets(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (n,), rad or m; zero where no axis shows them.
         """
 class IndexRange:
     """
@@ -2058,6 +2189,26 @@ class SimulationOptions:
     @property
     def vibration(self) -> VibrationOptions:
         ...
+def align_chain(target: ScrewChain, source: ScrewChain, length: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> ChainAlignment:
+    """
+    Place a chain on another by a rigid transform and offsets of its joints, least squares over the axes.
+
+    Parameters
+    ----------
+    target, source : ScrewChain
+        The same joints at the same reference configuration, such as the calibrated and the nominal arm.
+    length : float
+        m; weighs a radian of direction against a metre.
+
+    Returns
+    -------
+    ChainAlignment
+
+    Raises
+    ------
+    InvalidInput
+        Different joints or reference configurations, no joints, or a length that is not positive.
+    """
 def align_clocks(joint_time: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], joint_positions: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], sensor_time: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], options: ClockAlignmentOptions = ...) -> ClockAlignment:
     """
     Offset and rate between joint and sensor clock.
@@ -2630,7 +2781,7 @@ def forward_kinematics(chain: ScrewChain, q: numpy.typing.NDArray[numpy.float64]
 
     Parameters
     ----------
-    chain : ScrewChain, StandardDhChain or ModifiedDhChain
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
     q : (n,) or (N, n) array
         Joint positions, rad or m; (N, n) must be C-contiguous float64.
 
@@ -2651,7 +2802,7 @@ def forward_kinematics(chain: ScrewChain, q: collections.abc.Sequence[typing.Sup
 
     Parameters
     ----------
-    chain : ScrewChain, StandardDhChain or ModifiedDhChain
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
     q : (n,) or (N, n) array
         Joint positions, rad or m; (N, n) must be C-contiguous float64.
 
@@ -2672,7 +2823,7 @@ def forward_kinematics(chain: StandardDhChain, q: numpy.typing.NDArray[numpy.flo
 
     Parameters
     ----------
-    chain : ScrewChain, StandardDhChain or ModifiedDhChain
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
     q : (n,) or (N, n) array
         Joint positions, rad or m; (N, n) must be C-contiguous float64.
 
@@ -2693,7 +2844,7 @@ def forward_kinematics(chain: StandardDhChain, q: collections.abc.Sequence[typin
 
     Parameters
     ----------
-    chain : ScrewChain, StandardDhChain or ModifiedDhChain
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
     q : (n,) or (N, n) array
         Joint positions, rad or m; (N, n) must be C-contiguous float64.
 
@@ -2714,7 +2865,7 @@ def forward_kinematics(chain: ModifiedDhChain, q: numpy.typing.NDArray[numpy.flo
 
     Parameters
     ----------
-    chain : ScrewChain, StandardDhChain or ModifiedDhChain
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
     q : (n,) or (N, n) array
         Joint positions, rad or m; (N, n) must be C-contiguous float64.
 
@@ -2735,7 +2886,49 @@ def forward_kinematics(chain: ModifiedDhChain, q: collections.abc.Sequence[typin
 
     Parameters
     ----------
-    chain : ScrewChain, StandardDhChain or ModifiedDhChain
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
+    q : (n,) or (N, n) array
+        Joint positions, rad or m; (N, n) must be C-contiguous float64.
+
+    Returns
+    -------
+    (4, 4) or (N, 4, 4) array
+        T_base_sensor.
+
+    Raises
+    ------
+    InvalidInput
+        q does not have one entry per joint.
+    """
+@typing.overload
+def forward_kinematics(chain: HayatiChain, q: numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Pose of the sensor frame in the base frame.
+
+    Parameters
+    ----------
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
+    q : (n,) or (N, n) array
+        Joint positions, rad or m; (N, n) must be C-contiguous float64.
+
+    Returns
+    -------
+    (4, 4) or (N, 4, 4) array
+        T_base_sensor.
+
+    Raises
+    ------
+    InvalidInput
+        q does not have one entry per joint.
+    """
+@typing.overload
+def forward_kinematics(chain: HayatiChain, q: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+    """
+    Pose of the sensor frame in the base frame.
+
+    Parameters
+    ----------
+    chain : ScrewChain, StandardDhChain, ModifiedDhChain or HayatiChain
     q : (n,) or (N, n) array
         Joint positions, rad or m; (N, n) must be C-contiguous float64.
 
@@ -2796,6 +2989,33 @@ def gradient(y: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[n] or [n
     References
     ----------
     B. Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comp. 51 (1988).
+    """
+def hayati_parameter_jacobian(chain: ScrewChain, at: HayatiConversion, step: typing.SupportsFloat | typing.SupportsIndex = 1e-06) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    Derivative of the rows' parameters by the axes' local coordinates.
+
+    Parameters
+    ----------
+    chain : ScrewChain
+    at : HayatiConversion
+        The conversion of this chain.
+    step : float
+        Of the central differences, rad and m.
+
+    Returns
+    -------
+    (5 n, 4 n) array
+        Rows a, alpha, d, theta, beta of each row; columns d1, d2, p1, p2 of each axis. Rows of free parameters, and of the d
+        or beta a row does not have, are zero.
+
+    Raises
+    ------
+    InvalidInput
+        The conversion is of another number of joints, or the step is not a small positive number.
+    """
+def hayati_transform(row: HayatiRow, type: JointType, q: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+    """
+    T_i-1_i (4, 4) of one row at joint value q: Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) Rot_y(beta).
     """
 def interpolate_cubic(knots: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], at: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
@@ -3341,6 +3561,34 @@ def tangent_basis(z: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3
 
     u is the part of e_x orthogonal to z (of e_y where ``abs(z[0]) > 0.9``), ``v = cross(z, u)``. Every tangent-plane
     coordinate and covariance of an axis is in this basis.
+    """
+def to_hayati(chain: ScrewChain, nominal: StandardDhChain | None = None, near_parallel_threshold: typing.SupportsFloat | typing.SupportsIndex = 0.05, forms: collections.abc.Sequence[RowForm] = []) -> HayatiConversion:
+    """
+    Denavit-Hartenberg rows, with a Hayati row before nearly parallel axes.
+
+    Parameters
+    ----------
+    chain : ScrewChain
+    nominal : StandardDhChain, optional
+        Chooses the branch, the values of free parameters and where the base is.
+    near_parallel_threshold : float
+        rad; neighbours within it get a Hayati row.
+    forms : list of RowForm
+        One a row (the last is ignored) instead of the choice by the threshold.
+
+    Returns
+    -------
+    HayatiConversion
+
+    Raises
+    ------
+    InvalidInput
+        The chain has no joints; the nominal chain or forms have another size, or joints of other types; a form asked for
+        breaks down at its axes.
+
+    References
+    ----------
+    Hayati and Mirmirani, "Improving the absolute positioning accuracy of robot manipulators", J. Robotic Systems 2, 1985.
     """
 def to_modified_dh(chain: ScrewChain, nominal: ModifiedDhChain | None = None, parallel_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-08, near_parallel_threshold: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> ModifiedDhConversion:
     """
