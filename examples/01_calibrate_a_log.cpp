@@ -1,4 +1,4 @@
-// Calibrate an arm from one log: simulate it, find the tests in it, estimate all axes at once with their uncertainty.
+// Calibrate an arm from one log: simulate it, find the tests in it, estimate all axes with their uncertainty.
 #include <cstdio>
 
 #include "circlepoint/chain/screws_to_dh.hpp"

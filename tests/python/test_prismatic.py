@@ -192,14 +192,18 @@ def test_the_stated_covariance_of_a_sliding_direction_is_honest():
     ],
 )
 def test_what_a_sliding_joint_lacks_is_said(change, reason):
-    result = calibrate(recorded(ON_A_RAIL, **change), description(ON_A_RAIL), method="joint", sensor=load_sensor("qa700"))
+    result = calibrate(
+        recorded(ON_A_RAIL, **change), description(ON_A_RAIL), method="joint", sensor=load_sensor("qa700")
+    )
     assert reason in result.joints.joints[0].reason
     assert "0.3 m" in result.joints.joints[0].reason
     assert all(joint.axis is not None for joint in result.joints.joints[1:])
 
 
 def test_a_direction_that_a_slow_motion_hardly_shows_is_named():
-    result = calibrate(recorded("PR", span=0.05, frequency=0.02), description("PR"), method="joint", sensor=load_sensor("qa700"))
+    result = calibrate(
+        recorded("PR", span=0.05, frequency=0.02), description("PR"), method="joint", sensor=load_sensor("qa700")
+    )
     assert result.joints.complete()
     unseen = result.document["identifiability"]["unseen"]
     assert any("joint 1 direction: it accelerated by 0.3 mm/s^2" in entry and "faster" in entry for entry in unseen)

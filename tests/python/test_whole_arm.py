@@ -118,7 +118,10 @@ def test_a_delay_of_the_sensor_is_found():
 def test_a_scale_error_of_three_percent_is_found():
     sensor = cp.AccelerometerModel(scale=[0.03, -0.01, 0.02])
     result = estimate(
-        recorded(sweeps_of(), sensor=sensor), sensor="ideal", scale=cp.ParameterTreatment(), bias=cp.ParameterTreatment()
+        recorded(sweeps_of(), sensor=sensor),
+        sensor="ideal",
+        scale=cp.ParameterTreatment(),
+        bias=cp.ParameterTreatment(),
     )
     found = [value(result, f"scale_{axis}").value for axis in "xyz"]
     np.testing.assert_allclose(found, [0.03, -0.01, 0.02], atol=1e-4)
@@ -134,7 +137,11 @@ def test_a_vertical_base_joint_is_found_where_the_others_tilt_the_sensor():
 
 
 def test_parallel_axes_cost_nothing():
-    lines = [([0.0, 1.0, 0.0], [0.0, 0.0, 0.8]), ([0.0, 1.0, 0.0], [0.0, 0.1, 0.4]), ([0.9, 0.0, 0.3], [0.05, 0.0, 0.1])]
+    lines = [
+        ([0.0, 1.0, 0.0], [0.0, 0.0, 0.8]),
+        ([0.0, 1.0, 0.0], [0.0, 0.1, 0.4]),
+        ([0.9, 0.0, 0.3], [0.05, 0.0, 0.1]),
+    ]
     result = estimate(recorded(sweeps_of(), chain=chain_of(lines)))
     assert_found(result, chain_of(lines))
 
@@ -196,9 +203,15 @@ def test_a_short_arc_is_known_badly_and_said_to_be():
 def test_gravity_that_does_not_turn_leaves_no_line():
     # One joint about the vertical: bias and gravity are one.
     up = cp.STANDARD_GRAVITY * np.array([0.0, 0.0, 1.0])
-    chain = cp.ScrewChain([cp.ScrewAxis(REVOLUTE, cp.make_line(np.array([0.0, 0.0, 1.0]), np.array([0.4, 0.0, 0.0])))], START[:1])
-    motion = cp.joint_trajectory(START[:1], [cp.RaisedCosine(joint=0, span=2.4, frequency=0.5, duration=6.0)], RATE, 0.6)
-    recording = cp.simulate(chain, up, cp.AccelerometerModel(bias=[0.02, 0.0, 0.0]), motion, cp.SimulationOptions(noise_std=0.005))
+    chain = cp.ScrewChain(
+        [cp.ScrewAxis(REVOLUTE, cp.make_line(np.array([0.0, 0.0, 1.0]), np.array([0.4, 0.0, 0.0])))], START[:1]
+    )
+    motion = cp.joint_trajectory(
+        START[:1], [cp.RaisedCosine(joint=0, span=2.4, frequency=0.5, duration=6.0)], RATE, 0.6
+    )
+    recording = cp.simulate(
+        chain, up, cp.AccelerometerModel(bias=[0.02, 0.0, 0.0]), motion, cp.SimulationOptions(noise_std=0.005)
+    )
     options = cp.WholeArmOptions()
     options.sensor = load_sensor("mems")
     result = cp.calibrate_whole_arm(recording, cp.segment(recording), options)

@@ -101,7 +101,6 @@ TEST(AxisDirection, ThePapersChartFindsTheMinimumOfTheSphereAwayFromItsEdge) {
     support::add_noise(poses, 5e-4, random);
     const AxisDirectionFit fit = fit_axis_direction_robust(poses, chart);
     EXPECT_TRUE(fit.converged);
-    EXPECT_GT(fit.direction.z(), 0.0);
     EXPECT_LT(angle_between_axes(fit.direction, fit_axis_direction(poses).direction), 1e-7);
   }
   EXPECT_GT(compared, 15);
