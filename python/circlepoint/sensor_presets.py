@@ -178,7 +178,7 @@ class _Reader:
         sigmas = figure.number("sigmas", default=1.0, above=0.0)
         unit = str(figure.values.get("unit", ""))
         source = figure.text("source", "where the figure comes from") if "source" in figure else ""
-        si = value * factor / sigmas
+        si = float(f"{value * factor / sigmas:.15g}")  # 200 ppm is 2e-4, not its neighbour
         self.figures.append(SensorFigure(field_name(figure.where), value, unit, sigmas, source, si))
         return si
 

@@ -96,9 +96,11 @@ class Timeline {
       }
       const Piece& piece = pieces_[current];
       const bool at_boundary = current > 0 && current > before && std::abs(t - piece.begin) <= boundary_tolerance;
+      const double since = std::max(t - piece.begin, 0.0);
+      const double into_piece = since > piece.duration - boundary_tolerance ? piece.duration : since;
       trajectory.time[i] = t;
       for (Index joint = 0; joint < joints(); ++joint) {
-        const Jet jet = piece.motion(joint, std::clamp(t - piece.begin, 0.0, piece.duration));
+        const Jet jet = piece.motion(joint, into_piece);
         trajectory.position(i, joint) = piece.start[joint] + jet.value;
         trajectory.velocity(i, joint) = jet.rate;
         trajectory.acceleration(i, joint) = jet.acceleration;
