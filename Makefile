@@ -13,7 +13,7 @@ export CMAKE_CXX_COMPILER_LAUNCHER := ccache
 export CCACHE_BASEDIR := $(CURDIR)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
-.PHONY: help demo test install system ctest pytest lint stub bench accuracy clean
+.PHONY: help demo reproduce test install system ctest pytest lint stub bench accuracy clean
 
 help:
 	@sed -n 's/^# //p' Makefile | head -4
@@ -50,6 +50,10 @@ install: .venv/install.stamp
 demo: install
 	$(BIN)/circlepoint demo --out demo-result
 
+# Every number and figure of the paper with ours, in reproduction/.
+reproduce: install
+	$(BIN)/circlepoint reproduce --out reproduction
+
 ctest: system
 	cmake --preset release >/dev/null
 	cmake --build --preset release
@@ -78,4 +82,4 @@ stub: install .venv/dev.stamp
 test: install ctest pytest lint
 
 clean:
-	rm -rf build .venv demo-result
+	rm -rf build .venv demo-result reproduction
