@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AxisDirectionFit', 'BaseFrame', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NearParallel', 'NotIdentifiable', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'VibrationOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'butter', 'calibrate_joints', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'interpolate_cubic', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'rebase', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'used_tolerance', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -147,6 +147,120 @@ class JointAxis:
     @property
     def screw(self) -> ScrewAxis:
         ...
+class TemperatureModel:
+    """
+    How bias and scale factor follow the temperature: third-order polynomials.
+
+    Parameters
+    ----------
+    reference : float, degrees Celsius
+        Where bias and scale are those of the accelerometer's model.
+    bias : (3, 3) array_like
+        Row k of channel k: m/s^2 per degC, degC^2, degC^3.
+    scale : (3, 3) array_like
+        Row k of channel k: relative, per degC, degC^2, degC^3.
+
+    References
+    ----------
+    docs/method, (M14).
+    """
+    def __init__(self, *, reference: typing.SupportsFloat | typing.SupportsIndex = 25.0, bias: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = ..., scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = ...) -> None:
+        ...
+    def bias_change(self, temperature: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) m/s^2 from the reference.
+        """
+    def scale_change(self, temperature: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) from the reference.
+        """
+    @property
+    def bias(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        (3, 3) m/s^2 per degC, degC^2, degC^3
+        """
+    @property
+    def reference(self) -> float:
+        """
+        degrees Celsius
+        """
+    @property
+    def scale(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        (3, 3) per degC, degC^2, degC^3
+        """
+class NoiseBand:
+    """
+    Noise of `rms` m/s^2 between `low` and `high` Hz.
+    """
+    def __init__(self, low: typing.SupportsFloat | typing.SupportsIndex, high: typing.SupportsFloat | typing.SupportsIndex, rms: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def high(self) -> float:
+        """
+        Hz
+        """
+    @property
+    def low(self) -> float:
+        """
+        Hz
+        """
+    @property
+    def rms(self) -> float:
+        """
+        m/s^2
+        """
+class ResponseBand:
+    """
+    Gain within plus and minus `tolerance` (relative) from `low` to `high` Hz.
+    """
+    def __init__(self, low: typing.SupportsFloat | typing.SupportsIndex, high: typing.SupportsFloat | typing.SupportsIndex, tolerance: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def high(self) -> float:
+        """
+        Hz
+        """
+    @property
+    def low(self) -> float:
+        """
+        Hz
+        """
+    @property
+    def tolerance(self) -> float:
+        """
+        relative
+        """
+class SecondOrderResponse:
+    """
+    A mass on a damped spring: ``1 / (1 - x**2 + 2j damping x)``, x = f / natural_frequency.
+
+    Parameters
+    ----------
+    natural_frequency : float, Hz
+    damping : float
+        Of critical.
+
+    References
+    ----------
+    docs/method, (M16).
+    """
+    def __init__(self, *, natural_frequency: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def at(self, frequency: typing.SupportsFloat | typing.SupportsIndex) -> complex:
+        """
+        Complex gain at `frequency` (Hz).
+        """
+    @property
+    def damping(self) -> float:
+        """
+        of critical
+        """
+    @property
+    def natural_frequency(self) -> float:
+        """
+        Hz
+        """
 class AccelerometerModel:
     """
     One individual triaxial accelerometer.
@@ -165,13 +279,19 @@ class AccelerometerModel:
     percussion_distance : (3,) array_like, m
         Where each channel measures along its own axis.
     second_order : (3,) array_like, s^2/m
+    temperature : TemperatureModel
+        How bias and scale follow the temperature.
 
     References
     ----------
     Canepa, Hollerbach, Boelen 1994, eqs. (9) and (10).
     """
-    def __init__(self, *, bias: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., misalignment: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., percussion_distance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., second_order: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...) -> None:
+    def __init__(self, *, bias: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., misalignment: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., percussion_distance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., second_order: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., temperature: TemperatureModel = ...) -> None:
         ...
+    def at(self, degrees: typing.SupportsFloat | typing.SupportsIndex) -> AccelerometerModel:
+        """
+        The same sensor held at a temperature, degrees Celsius: bias and scale are those there.
+        """
     def misalignment_matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
         """
         (3, 3) unit lower triangular matrix M.
@@ -201,6 +321,42 @@ class AccelerometerModel:
         """
         (3,) s^2/m
         """
+    @property
+    def temperature(self) -> TemperatureModel:
+        """
+        of bias and scale
+        """
+class UncorrectedErrors:
+    """
+    Standard deviations of what a sensor's own calibration sheet corrects.
+    """
+    def __init__(self, *, bias_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, scale_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, bias_temperature_std: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., scale_temperature_std: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., reference_temperature: typing.SupportsFloat | typing.SupportsIndex = 25.0) -> None:
+        ...
+    @property
+    def bias_std(self) -> float:
+        """
+        m/s^2
+        """
+    @property
+    def bias_temperature_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) m/s^2 per degC, degC^2, degC^3
+        """
+    @property
+    def reference_temperature(self) -> float:
+        """
+        degrees Celsius
+        """
+    @property
+    def scale_std(self) -> float:
+        """
+        1
+        """
+    @property
+    def scale_temperature_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) per degC, degC^2, degC^3
+        """
 class AccelerometerSpecification:
     """
     What a data sheet says of a kind of accelerometer.
@@ -221,8 +377,16 @@ class AccelerometerSpecification:
         White noise per sample.
     range : float, m/s^2
         Readings clip at plus and minus this; 0 for no clipping.
+    resolution : float, m/s^2
+        The smallest change that shows; 0 for any.
+    current_scale_factor : float, A s^2/m
+        Nominal; 0 for a sensor without current output.
+    uncorrected : UncorrectedErrors
+        What the sensor's own calibration sheet corrects; the errors above are what is left then.
+    noise_bands : list of NoiseBand
+    response_bands : list of ResponseBand
     """
-    def __init__(self, *, bias_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, scale_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, misalignment_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, percussion_distance: typing.SupportsFloat | typing.SupportsIndex = 0.0, percussion_distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, second_order_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, range: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+    def __init__(self, *, bias_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, scale_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, misalignment_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, percussion_distance: typing.SupportsFloat | typing.SupportsIndex = 0.0, percussion_distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, second_order_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, range: typing.SupportsFloat | typing.SupportsIndex = 0.0, resolution: typing.SupportsFloat | typing.SupportsIndex = 0.0, current_scale_factor: typing.SupportsFloat | typing.SupportsIndex = 0.0, uncorrected: UncorrectedErrors = ..., noise_bands: collections.abc.Sequence[NoiseBand] = [], response_bands: collections.abc.Sequence[ResponseBand] = []) -> None:
         ...
     @property
     def bias_std(self) -> float:
@@ -230,10 +394,18 @@ class AccelerometerSpecification:
         m/s^2
         """
     @property
+    def current_scale_factor(self) -> float:
+        """
+        A s^2/m, nominal
+        """
+    @property
     def misalignment_std(self) -> float:
         """
         rad
         """
+    @property
+    def noise_bands(self) -> list[NoiseBand]:
+        ...
     @property
     def noise_std(self) -> float:
         """
@@ -255,6 +427,14 @@ class AccelerometerSpecification:
         m/s^2; 0: no clipping
         """
     @property
+    def resolution(self) -> float:
+        """
+        m/s^2; 0: any change shows
+        """
+    @property
+    def response_bands(self) -> list[ResponseBand]:
+        ...
+    @property
     def scale_std(self) -> float:
         """
         1
@@ -263,6 +443,30 @@ class AccelerometerSpecification:
     def second_order_std(self) -> float:
         """
         s^2/m
+        """
+    @property
+    def uncorrected(self) -> UncorrectedErrors:
+        """
+        before correction by the calibration sheet
+        """
+class CalibratedAccelerometer:
+    """
+    An individual sensor, its calibration sheet, and what correcting by it leaves.
+    """
+    @property
+    def actual(self) -> AccelerometerModel:
+        """
+        what the individual does
+        """
+    @property
+    def residual(self) -> AccelerometerModel:
+        """
+        what is left after correction by the sheet
+        """
+    @property
+    def sheet(self) -> AccelerometerModel:
+        """
+        bias, scale and temperature as delivered
         """
 class FrameMotion:
     """
@@ -1087,8 +1291,18 @@ class StaticIntervalOptions:
     """
     What counts as standing still.
     """
-    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05) -> None:
+    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05, joint_types: collections.abc.Sequence[JointType] = [], metres_per_radian: typing.SupportsFloat | typing.SupportsIndex = 0.2) -> None:
         ...
+    @property
+    def joint_types(self) -> list[JointType]:
+        """
+        base to tip; empty: all revolute
+        """
+    @property
+    def metres_per_radian(self) -> float:
+        """
+        m: a prismatic joint's travel that counts as a radian of every threshold
+        """
     @property
     def min_dwell(self) -> float:
         """
@@ -1097,7 +1311,7 @@ class StaticIntervalOptions:
     @property
     def min_velocity(self) -> float:
         """
-        rad/s or m/s: what is slower is at rest
+        rad/s: what is slower is at rest
         """
     @property
     def quiet_ratio(self) -> float:
@@ -1239,12 +1453,12 @@ class SegmentationOptions(StaticIntervalOptions):
     """
     What counts as a dwell, a single-joint motion and a test.
     """
-    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05, others_ratio: typing.SupportsFloat | typing.SupportsIndex = 0.1, others_travel: typing.SupportsFloat | typing.SupportsIndex = 0.06, min_travel: typing.SupportsFloat | typing.SupportsIndex = 0.03, min_partial: typing.SupportsFloat | typing.SupportsIndex = 0.5, configuration_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> None:
+    def __init__(self, *, min_dwell: typing.SupportsFloat | typing.SupportsIndex = 0.25, settle: typing.SupportsFloat | typing.SupportsIndex = 0.1, min_velocity: typing.SupportsFloat | typing.SupportsIndex = 0.005, rest_window: typing.SupportsFloat | typing.SupportsIndex = 0.2, quiet_ratio: typing.SupportsFloat | typing.SupportsIndex = 5.0, quiet_std: typing.SupportsFloat | typing.SupportsIndex = 0.05, others_ratio: typing.SupportsFloat | typing.SupportsIndex = 0.1, others_travel: typing.SupportsFloat | typing.SupportsIndex = 0.06, min_travel: typing.SupportsFloat | typing.SupportsIndex = 0.03, min_partial: typing.SupportsFloat | typing.SupportsIndex = 0.5, configuration_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.1, joint_types: collections.abc.Sequence[JointType] = [], metres_per_radian: typing.SupportsFloat | typing.SupportsIndex = 0.2) -> None:
         ...
     @property
     def configuration_tolerance(self) -> float:
         """
-        rad or m: the same test, if every other joint is within this
+        rad: the same test, if every other joint is within this
         """
     @property
     def min_partial(self) -> float:
@@ -1254,7 +1468,7 @@ class SegmentationOptions(StaticIntervalOptions):
     @property
     def min_travel(self) -> float:
         """
-        rad or m: shorter motions are ignored
+        rad: shorter motions are ignored
         """
     @property
     def others_ratio(self) -> float:
@@ -1264,7 +1478,7 @@ class SegmentationOptions(StaticIntervalOptions):
     @property
     def others_travel(self) -> float:
         """
-        rad or m: others may not yield more than this over a motion
+        rad: others may not yield more than this over a motion
         """
 class AxisDirectionFit:
     """
@@ -1306,6 +1520,12 @@ class AxisDirectionFit:
         """
         (N,) final weights, 1 for inliers
         """
+class AxisChart(enum.Enum):
+    """
+    Which parameters the iteration moves an axis in.
+    """
+    hemisphere = ...
+    sphere = ...
 class GravityModel:
     """
     Static reading against joint angle: A + B cos + C sin.
@@ -1667,7 +1887,7 @@ class JointCalibrationOptions:
     @property
     def encoder_resolution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        (n,) rad a count; empty: from the data
+        (n,) rad or m a count; empty: from the data
         """
     @encoder_resolution.setter
     def encoder_resolution(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None:
@@ -1719,6 +1939,21 @@ class TestFit:
     One joint test's fit, with the signals to look at it.
     """
     @property
+    def acceleration_rms(self) -> float:
+        """
+        m/s^2, prismatic: of the joint, filtered
+        """
+    @property
+    def acceleration_scale(self) -> float:
+        """
+        prismatic: acceleration read by that of the encoder; 1 where both are right
+        """
+    @property
+    def acceleration_scale_std(self) -> float:
+        """
+        noise and the sensor's scale
+        """
+    @property
     def condition_number(self) -> float:
         ...
     @property
@@ -1755,7 +1990,7 @@ class TestFit:
     @property
     def dwell_positions(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        (K,) rad
+        (K,) rad or m
         """
     @property
     def dynamic_noise_std(self) -> float:
@@ -1807,7 +2042,7 @@ class TestFit:
     @property
     def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        (M,) rad
+        (M,) rad or m
         """
     @property
     def rank(self) -> int:
@@ -1832,6 +2067,9 @@ class TestFit:
         """
         (M,) s
         """
+    @property
+    def type(self) -> JointType:
+        ...
 class JointEstimate:
     """
     One joint's axis, or why there is none.
@@ -1907,6 +2145,618 @@ class JointCalibration:
         """
         (3,) m/s^2
         """
+class ParameterTreatment:
+    """
+    How one group of parameters is treated: fixed, free, or with a prior.
+    """
+    def __init__(self, estimated: bool = True, std: typing.SupportsFloat | typing.SupportsIndex = ...) -> None:
+        ...
+    @property
+    def estimated(self) -> bool:
+        """
+        False: fixed at its nominal value
+        """
+    @estimated.setter
+    def estimated(self, arg0: bool) -> None:
+        ...
+    @property
+    def std(self) -> float:
+        """
+        of the Gaussian prior about the nominal value; infinite: free
+        """
+    @std.setter
+    def std(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class WholeArmOptions:
+    """
+    Options of calibrate_whole_arm.
+    """
+    use_gyroscope: bool
+    def __init__(self) -> None:
+        ...
+    @property
+    def bias(self) -> ParameterTreatment:
+        """
+        m/s^2; std 0: the sensor's specification
+        """
+    @bias.setter
+    def bias(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def clock_offset(self) -> ParameterTreatment:
+        """
+        s, sensor behind the encoders
+        """
+    @clock_offset.setter
+    def clock_offset(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def clock_rate(self) -> ParameterTreatment:
+        """
+        1
+        """
+    @clock_rate.setter
+    def clock_rate(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def cutoff(self) -> float:
+        """
+        Hz; 0: chosen from rate and encoders
+        """
+    @cutoff.setter
+    def cutoff(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def eccentricity(self) -> ParameterTreatment:
+        """
+        rad
+        """
+    @eccentricity.setter
+    def eccentricity(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def encoder_gain(self) -> ParameterTreatment:
+        """
+        1
+        """
+    @encoder_gain.setter
+    def encoder_gain(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def encoder_resolution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (n,) rad or m a count; empty: from the data
+        """
+    @encoder_resolution.setter
+    def encoder_resolution(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None:
+        ...
+    @property
+    def gravity(self) -> ParameterTreatment:
+        """
+        m/s^2, the local magnitude; its direction is always free
+        """
+    @gravity.setter
+    def gravity(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def gravity_magnitude(self) -> float:
+        """
+        m/s^2
+        """
+    @gravity_magnitude.setter
+    def gravity_magnitude(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def gyroscope_bias(self) -> ParameterTreatment:
+        """
+        rad/s
+        """
+    @gyroscope_bias.setter
+    def gyroscope_bias(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def gyroscope_matrix(self) -> ParameterTreatment:
+        """
+        1
+        """
+    @gyroscope_matrix.setter
+    def gyroscope_matrix(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def joint_types(self) -> list[JointType]:
+        """
+        empty: all revolute
+        """
+    @joint_types.setter
+    def joint_types(self, arg0: collections.abc.Sequence[JointType]) -> None:
+        ...
+    @property
+    def max_passes(self) -> int:
+        """
+        of estimating parameters and noise in turn
+        """
+    @max_passes.setter
+    def max_passes(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def min_travel(self) -> float:
+        """
+        rad or m: joints that travel less have no line
+        """
+    @min_travel.setter
+    def min_travel(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def misalignment(self) -> ParameterTreatment:
+        """
+        rad; std 0: the sensor's specification
+        """
+    @misalignment.setter
+    def misalignment(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def percussion_distance(self) -> ParameterTreatment:
+        """
+        m; std 0: the sensor's specification
+        """
+    @percussion_distance.setter
+    def percussion_distance(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def random_starts(self) -> int:
+        """
+        where tests give no start values
+        """
+    @random_starts.setter
+    def random_starts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def reference_configuration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"] | None:
+        """
+        (n,) rad or m, or None
+        """
+    @reference_configuration.setter
+    def reference_configuration(self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] | None) -> None:
+        ...
+    @property
+    def scale(self) -> ParameterTreatment:
+        """
+        1; std 0: the sensor's specification
+        """
+    @scale.setter
+    def scale(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def second_order(self) -> ParameterTreatment:
+        """
+        s^2/m; std 0: the sensor's specification
+        """
+    @second_order.setter
+    def second_order(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
+    def seed(self) -> int:
+        """
+        of the random starts
+        """
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def sensor(self) -> AccelerometerSpecification:
+        """
+        prior on the individual sensor
+        """
+    @sensor.setter
+    def sensor(self, arg0: AccelerometerSpecification) -> None:
+        ...
+    @property
+    def threads(self) -> int:
+        """
+        0: as many as the machine has; the result does not depend on it
+        """
+    @threads.setter
+    def threads(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+class NamedParameter:
+    """
+    One estimated number.
+    """
+    @property
+    def data_std(self) -> float:
+        """
+        without priors; infinite where the data alone do not show it
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def std(self) -> float:
+        ...
+    @property
+    def value(self) -> float:
+        """
+        lines: 0, their coordinates are taken at the estimate
+        """
+class WeakCombination:
+    """
+    Parameters the data hardly tell apart.
+    """
+    @property
+    def description(self) -> str:
+        """
+        parameters, numbers and what to record
+        """
+    @property
+    def information_ratio(self) -> float:
+        """
+        eigenvalue over the largest
+        """
+class StretchResidual:
+    """
+    Residuals of one kind of motion, or of the dwells.
+    """
+    @property
+    def begin(self) -> float:
+        """
+        s
+        """
+    @property
+    def end(self) -> float:
+        """
+        s
+        """
+    @property
+    def held_out_normalized_rms(self) -> float:
+        ...
+    @property
+    def held_out_rms(self) -> float:
+        """
+        m/s^2, by estimates that did not see the stretch
+        """
+    @property
+    def held_out_samples(self) -> int:
+        ...
+    @property
+    def indispensable(self) -> int:
+        """
+        stretches the rest cannot predict
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def normalized_rms(self) -> float:
+        """
+        whitened: 1 where model and noise hold
+        """
+    @property
+    def residual_rms(self) -> float:
+        """
+        m/s^2
+        """
+    @property
+    def samples(self) -> int:
+        ...
+class WholeArmCalibration:
+    """
+    The whole-arm estimate and what it says of itself.
+    """
+    @property
+    def clock_offset(self) -> float:
+        """
+        s, sensor behind the encoders
+        """
+    @property
+    def clock_rate(self) -> float:
+        ...
+    @property
+    def condition_number(self) -> float:
+        ...
+    @property
+    def converged(self) -> bool:
+        ...
+    @property
+    def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        of `parameters`, in their order
+        """
+    @property
+    def cutoff(self) -> float:
+        """
+        Hz
+        """
+    @property
+    def eccentricity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+        """
+        (n, 2) rad
+        """
+    @property
+    def encoder_gain(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (n,)
+        """
+    @property
+    def gyroscope_bias(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) rad/s
+        """
+    @property
+    def gyroscope_matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        (3, 3)
+        """
+    @property
+    def gyroscope_used(self) -> bool:
+        ...
+    @property
+    def iterations(self) -> int:
+        ...
+    @property
+    def joints(self) -> JointCalibration:
+        """
+        JointCalibration: lines, covariance, gravity, sensor, signals
+        """
+    @property
+    def normalized_rms(self) -> float:
+        ...
+    @property
+    def outliers(self) -> int:
+        ...
+    @property
+    def parameters(self) -> list[NamedParameter]:
+        ...
+    @property
+    def rank(self) -> int:
+        """
+        parameter combinations the data alone determine
+        """
+    @property
+    def rows(self) -> int:
+        ...
+    @property
+    def samples(self) -> int:
+        ...
+    @property
+    def starts_tried(self) -> int:
+        ...
+    @property
+    def stretches(self) -> list[StretchResidual]:
+        ...
+    @property
+    def weak(self) -> list[WeakCombination]:
+        ...
+class TemperatureProfile:
+    """
+    Of the sensor while it records: ``start + rise (1 - exp(-t / time_constant))``.
+
+    Parameters
+    ----------
+    start, rise : float, degrees Celsius
+    time_constant : float, s
+    sensor_offset, sensor_noise_std : float, degrees Celsius
+        Of the internal thermometer; the noise is white per sample.
+    """
+    def __init__(self, *, start: typing.SupportsFloat | typing.SupportsIndex = 25.0, rise: typing.SupportsFloat | typing.SupportsIndex = 0.0, time_constant: typing.SupportsFloat | typing.SupportsIndex = 600.0, sensor_offset: typing.SupportsFloat | typing.SupportsIndex = 0.0, sensor_noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def at(self, time: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        True temperature after `time` seconds, degrees Celsius.
+        """
+    @property
+    def rise(self) -> float:
+        """
+        degrees Celsius
+        """
+    @property
+    def sensor_noise_std(self) -> float:
+        """
+        degrees Celsius
+        """
+    @property
+    def sensor_offset(self) -> float:
+        """
+        degrees Celsius
+        """
+    @property
+    def start(self) -> float:
+        """
+        degrees Celsius
+        """
+    @property
+    def time_constant(self) -> float:
+        """
+        s
+        """
+class HeldJoints:
+    """
+    Joints held by a proportional-derivative loop.
+
+    Parameters
+    ----------
+    natural_frequency : (n,) array_like, Hz
+        0 for a joint that follows exactly; empty for all.
+    settling_time : float, s
+        Until oscillations have decayed to 2 %.
+    """
+    def __init__(self, *, natural_frequency: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ..., settling_time: typing.SupportsFloat | typing.SupportsIndex = 3.0) -> None:
+        ...
+    @property
+    def natural_frequency(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (n,) Hz
+        """
+    @property
+    def settling_time(self) -> float:
+        """
+        s
+        """
+class AcquisitionOptions:
+    """
+    What lies between the sensor and the log; everything is off by default.
+
+    The trajectory is given at the analogue rate, `oversampling` times the recording's rate.
+
+    Parameters
+    ----------
+    oversampling : int
+        Analogue instants a sample.
+    noise_bands : list of NoiseBand
+        Of the sensor.
+    response_bands : list of ResponseBand
+        Each channel's frequency response is drawn within them.
+    resolution : float, m/s^2
+        Of the sensor; 0: any change shows.
+    signal_cutoff, temperature_cutoff : float, Hz
+        -3 dB of the conditioning unit's causal Butterworth filters; 0: none.
+    filter_order : int
+        Of both.
+    cable_noise_std : float, m/s^2
+        White, per sample.
+    pickup_amplitude : float, m/s^2
+    pickup_frequency : float, Hz
+    channel_skew : float, s
+        Between channels x, y, z, temperature of the multiplexed converter.
+    converter_bits : int
+        0: no quantisation.
+    converter_range : float, m/s^2
+        Full scale is plus and minus this at gain 1.
+    converter_gain : float
+    encoder_rate : float, Hz
+        At which encoders are read; each sample holds the last reading. 0: at every sample.
+    sheet : AccelerometerModel, optional
+        What readings are corrected by, at the recorded temperature; None: they stay raw.
+
+    References
+    ----------
+    Canepa, Hollerbach, Boelen 1994, sec. 3.
+    """
+    def __init__(self, *, oversampling: typing.SupportsInt | typing.SupportsIndex = 1, noise_bands: collections.abc.Sequence[NoiseBand] = [], response_bands: collections.abc.Sequence[ResponseBand] = [], resolution: typing.SupportsFloat | typing.SupportsIndex = 0.0, signal_cutoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, temperature_cutoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, filter_order: typing.SupportsInt | typing.SupportsIndex = 2, cable_noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, pickup_amplitude: typing.SupportsFloat | typing.SupportsIndex = 0.0, pickup_frequency: typing.SupportsFloat | typing.SupportsIndex = 60.0, channel_skew: typing.SupportsFloat | typing.SupportsIndex = 0.0, converter_bits: typing.SupportsInt | typing.SupportsIndex = 0, converter_range: typing.SupportsFloat | typing.SupportsIndex = 300.0, converter_gain: typing.SupportsFloat | typing.SupportsIndex = 1.0, encoder_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0, sheet: AccelerometerModel | None = None) -> None:
+        ...
+    @property
+    def cable_noise_std(self) -> float:
+        """
+        m/s^2 per sample
+        """
+    @cable_noise_std.setter
+    def cable_noise_std(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def channel_skew(self) -> float:
+        """
+        s
+        """
+    @channel_skew.setter
+    def channel_skew(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def converter_bits(self) -> int:
+        """
+        0: no quantisation
+        """
+    @converter_bits.setter
+    def converter_bits(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def converter_gain(self) -> float:
+        ...
+    @converter_gain.setter
+    def converter_gain(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def converter_range(self) -> float:
+        """
+        m/s^2 at gain 1
+        """
+    @converter_range.setter
+    def converter_range(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def encoder_rate(self) -> float:
+        """
+        Hz; 0: at every sample
+        """
+    @encoder_rate.setter
+    def encoder_rate(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def filter_order(self) -> int:
+        ...
+    @filter_order.setter
+    def filter_order(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def noise_bands(self) -> list[NoiseBand]:
+        """
+        of the sensor
+        """
+    @noise_bands.setter
+    def noise_bands(self, arg0: collections.abc.Sequence[NoiseBand]) -> None:
+        ...
+    @property
+    def oversampling(self) -> int:
+        """
+        analogue instants a sample
+        """
+    @oversampling.setter
+    def oversampling(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def pickup_amplitude(self) -> float:
+        """
+        m/s^2
+        """
+    @pickup_amplitude.setter
+    def pickup_amplitude(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def pickup_frequency(self) -> float:
+        """
+        Hz
+        """
+    @pickup_frequency.setter
+    def pickup_frequency(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def resolution(self) -> float:
+        """
+        m/s^2; 0: any change shows
+        """
+    @resolution.setter
+    def resolution(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def response_bands(self) -> list[ResponseBand]:
+        """
+        of the sensor
+        """
+    @response_bands.setter
+    def response_bands(self, arg0: collections.abc.Sequence[ResponseBand]) -> None:
+        ...
+    @property
+    def sheet(self) -> AccelerometerModel | None:
+        """
+        what readings are corrected by, or None
+        """
+    @sheet.setter
+    def sheet(self, arg0: AccelerometerModel | None) -> None:
+        ...
+    @property
+    def signal_cutoff(self) -> float:
+        """
+        Hz; 0: none
+        """
+    @signal_cutoff.setter
+    def signal_cutoff(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def temperature_cutoff(self) -> float:
+        """
+        Hz; 0: none
+        """
+    @temperature_cutoff.setter
+    def temperature_cutoff(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
 class JointTrajectory:
     """
     Joint positions with exact derivatives on a uniform clock.
@@ -2148,16 +2998,34 @@ class SimulationOptions:
     range : float, m/s^2
         Readings clip at plus and minus this; 0 for no clipping.
     encoder_counts_per_revolution : (n,) array_like
-        0 for an exact encoder; empty for all exact. Prismatic joints are always exact.
+        Per metre for a prismatic joint; 0 for an exact encoder; empty for all exact.
     bias_drift : (3,) array_like, m/s^2
         Reached linearly from zero over the recording.
     compliance : (n,) array_like, rad per m^2/s^2 (prismatic: m per m/s^2)
         How far each joint gives way to the weight of a unit mass at the sensor; empty for a rigid arm.
     vibration : VibrationOptions
     seed : int
+    held_joints : HeldJoints
+        Joints that follow their command late and ring.
+    temperature : TemperatureProfile, optional
+        Of the sensor while it records; the recording then has a temperature. None: the sensor is at its reference.
+    angular_velocity_noise_std : float, rad/s, optional
+        White noise per sample of a gyroscope at the sensor; None: there is no gyroscope.
+    acquisition : AcquisitionOptions, optional
+        What lies between sensor and log; the trajectory is then given at the analogue rate.
     """
-    def __init__(self, *, noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, range: typing.SupportsFloat | typing.SupportsIndex = 0.0, encoder_counts_per_revolution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ..., bias_drift: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., compliance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ..., vibration: VibrationOptions = ..., seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+    def __init__(self, *, noise_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, range: typing.SupportsFloat | typing.SupportsIndex = 0.0, encoder_counts_per_revolution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ..., bias_drift: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., compliance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ..., vibration: VibrationOptions = ..., seed: typing.SupportsInt | typing.SupportsIndex = 0, held_joints: HeldJoints = ..., temperature: TemperatureProfile | None = None, angular_velocity_noise_std: typing.SupportsFloat | typing.SupportsIndex | None = None, acquisition: AcquisitionOptions | None = None) -> None:
         ...
+    @property
+    def acquisition(self) -> AcquisitionOptions | None:
+        """
+        or None
+        """
+    @property
+    def angular_velocity_noise_std(self) -> float | None:
+        """
+        rad/s, or None
+        """
     @property
     def bias_drift(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -2174,6 +3042,9 @@ class SimulationOptions:
         (n,)
         """
     @property
+    def held_joints(self) -> HeldJoints:
+        ...
+    @property
     def noise_std(self) -> float:
         """
         m/s^2 per sample
@@ -2186,6 +3057,11 @@ class SimulationOptions:
     @property
     def seed(self) -> int:
         ...
+    @property
+    def temperature(self) -> TemperatureProfile | None:
+        """
+        of the sensor, or None
+        """
     @property
     def vibration(self) -> VibrationOptions:
         ...
@@ -2240,7 +3116,7 @@ def align_clocks(joint_time: typing.Annotated[numpy.typing.NDArray[numpy.float64
     NotIdentifiable
         No motion from which a delay could be measured; the message says what to record.
     """
-def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.Sequence[Line], length: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.Sequence[Line], length: typing.SupportsFloat | typing.SupportsIndex = 0.5, types: collections.abc.Sequence[JointType] = []) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
     """
     The rigid transform that brings lines closest to their counterparts, such as nominal axes to calibrated ones.
 
@@ -2250,6 +3126,8 @@ def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.
         In correspondence, m.
     length : float
         m; weighs a radian of direction against a metre of position.
+    types : list of JointType
+        One a line, or none: all revolute. Of a prismatic joint's line only the direction counts.
 
     Returns
     -------
@@ -2259,7 +3137,7 @@ def align_lines(target: collections.abc.Sequence[Line], source: collections.abc.
     Raises
     ------
     InvalidInput
-        Different numbers of lines, or none.
+        Different numbers of lines or types, or no lines.
     """
 def analyse_timeline(time: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], options: TimelineOptions = ...) -> TimelineReport:
     """
@@ -2289,6 +3167,31 @@ def axis_in_sensor_frame(chain: ScrewChain, joint: typing.SupportsInt | typing.S
     ------
     InvalidInput
         The joint does not exist, or q does not have one entry per joint.
+    """
+def band_noise(bands: collections.abc.Sequence[NoiseBand], samples: typing.SupportsInt | typing.SupportsIndex, sample_rate: typing.SupportsFloat | typing.SupportsIndex, seed: typing.SupportsInt | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+    """
+    Three independent channels of Gaussian noise stated by band, flat within each.
+
+    Parameters
+    ----------
+    bands : list of NoiseBand
+    samples : int
+    sample_rate : float, Hz
+        What lies above half of it folds back.
+    seed : int
+
+    Returns
+    -------
+    (samples, 3) ndarray, m/s^2
+
+    Raises
+    ------
+    InvalidInput
+        For an empty band, an rms below zero, no samples or a rate that is not positive.
+
+    References
+    ----------
+    docs/method, (M17).
     """
 @typing.overload
 def butter(order: typing.SupportsInt | typing.SupportsIndex, cutoff: typing.SupportsFloat | typing.SupportsIndex, sample_rate: typing.SupportsFloat | typing.SupportsIndex, btype: typing.Literal['lowpass', 'highpass', 'bandpass', 'bandstop'] = 'lowpass') -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]:
@@ -2348,6 +3251,33 @@ def calibrate_joints(recording: Recording, segmentation: Segmentation, options: 
     References
     ----------
     docs/method, sections 2 and 3.
+    """
+def calibrate_whole_arm(recording: Recording, segmentation: Segmentation, options: WholeArmOptions = ...) -> WholeArmCalibration:
+    """
+    One maximum-likelihood estimate of all joint lines, gravity, the sensor's errors and the delay, from any motion.
+
+    Parameters
+    ----------
+    recording : Recording
+    segmentation : Segmentation
+        Its dwells and single-joint tests help to start; motions of several joints count as well.
+    options : WholeArmOptions
+
+    Returns
+    -------
+    WholeArmCalibration
+        Joints that never move carry the reason instead of an axis.
+
+    Raises
+    ------
+    InvalidInput
+        Options that do not fit the recording.
+    NotIdentifiable
+        Nothing moves, or no start leads to a model of the motion.
+
+    References
+    ----------
+    docs/method, section 8.
     """
 def center_by_position(angle: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], sample_rate: typing.SupportsFloat | typing.SupportsIndex, axis_direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], gravity: GravityModel, options: CenterOptions = ...) -> CenterOfRotation:
     """
@@ -2431,6 +3361,7 @@ def concatenate(recordings: collections.abc.Sequence[Recording]) -> Recording:
     InvalidInput
         None given, other joints, or sample rates that differ by more than 1 %.
     """
+@typing.overload
 def correct(model: AccelerometerModel, reading: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], angular_velocity: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
     """
     The specific force behind every reading: the exact inverse of `measure`.
@@ -2441,6 +3372,36 @@ def correct(model: AccelerometerModel, reading: typing.Annotated[numpy.typing.ND
     reading : (N, 3) ndarray of float64, m/s^2
     angular_velocity : (N, 3) ndarray of float64, rad/s
         In the sensor frame.
+    temperature : (N,) ndarray of float64, degrees Celsius, optional
+        Of the sensor; without it the sensor is at its model's reference.
+
+    Returns
+    -------
+    (N, 3) ndarray, m/s^2
+        Specific force at the sensor frame's origin.
+
+    Raises
+    ------
+    InvalidInput
+        When the arrays differ in their number of samples, or for a reading the model cannot produce.
+
+    References
+    ----------
+    Canepa, Hollerbach, Boelen 1994, eqs. (9) and (10).
+    """
+@typing.overload
+def correct(model: AccelerometerModel, reading: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], angular_velocity: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], temperature: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+    """
+    The specific force behind every reading: the exact inverse of `measure`.
+
+    Parameters
+    ----------
+    model : AccelerometerModel
+    reading : (N, 3) ndarray of float64, m/s^2
+    angular_velocity : (N, 3) ndarray of float64, rad/s
+        In the sensor frame.
+    temperature : (N,) ndarray of float64, degrees Celsius, optional
+        Of the sensor; without it the sensor is at its model's reference.
 
     Returns
     -------
@@ -2604,6 +3565,35 @@ def draw_accelerometer(specification: AccelerometerSpecification, seed: typing.S
     InvalidInput
         For a standard deviation that is negative or not finite.
     """
+def draw_calibrated_accelerometer(specification: AccelerometerSpecification, seed: typing.SupportsInt | typing.SupportsIndex) -> CalibratedAccelerometer:
+    """
+    One individual sensor of a kind with the calibration sheet that came with it.
+
+    Correcting the actual sensor's readings by the sheet leaves what a sensor with the residual errors alone reads.
+
+    Parameters
+    ----------
+    specification : AccelerometerSpecification
+    seed : int
+        `residual` is what `draw_accelerometer` draws with it.
+
+    Returns
+    -------
+    CalibratedAccelerometer
+
+    Raises
+    ------
+    InvalidInput
+        For a standard deviation that is negative or not finite.
+
+    References
+    ----------
+    docs/method, (M15).
+    """
+def draw_response(bands: collections.abc.Sequence[ResponseBand], seed: typing.SupportsInt | typing.SupportsIndex) -> SecondOrderResponse:
+    """
+    One individual's frequency response, within all bands; InvalidInput where there is none.
+    """
 def encoder_step(positions: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> float:
     """
     The step of an encoder, as its readings show it.
@@ -2661,18 +3651,21 @@ def fit_axis_direction(specific_force: typing.Annotated[numpy.typing.NDArray[num
     ----------
     Canepa, Hollerbach and Boelen (1994), section 2.1, eq. (3); docs/method, section 2.
     """
-def fit_axis_direction_robust(specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], loss_scale: typing.SupportsFloat | typing.SupportsIndex = 3.0, max_iterations: typing.SupportsInt | typing.SupportsIndex = 50) -> AxisDirectionFit:
+def fit_axis_direction_robust(specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], loss_scale: typing.SupportsFloat | typing.SupportsIndex = 3.0, max_iterations: typing.SupportsInt | typing.SupportsIndex = 50, chart: AxisChart = ...) -> AxisDirectionFit:
     """
-    Axis direction with a Cauchy loss: poses disturbed by a knock are down-weighted.
+    Axis direction by iteration, with a Cauchy loss: poses disturbed by a knock are down-weighted.
 
     Parameters
     ----------
     specific_force : (N, 3) float64, C order
         Mean reading of each static pose, m/s^2.
     loss_scale : float
-        Residuals beyond this many robust standard deviations lose weight.
+        Residuals beyond this many robust standard deviations lose weight; infinity: plain least squares.
     max_iterations : int
         Of the reweighting.
+    chart : AxisChart
+        ``sphere``: the tangent plane. ``hemisphere``: the paper's l, m with n = sqrt(1 - l^2 - m^2), started at l = m = 0;
+        an axis nearly in the sensor's x-y plane is reached slowly or not at all.
 
     Returns
     -------
@@ -2681,7 +3674,11 @@ def fit_axis_direction_robust(specific_force: typing.Annotated[numpy.typing.NDAr
     Raises
     ------
     InvalidInput, NotIdentifiable
-        As `fit_axis_direction`.
+        As `fit_axis_direction`; InvalidInput also when `loss_scale` is not positive.
+
+    References
+    ----------
+    Canepa, Hollerbach and Boelen (1994), section 4, with its constraint corrected; docs/method, errata.
     """
 def fit_circle(points: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]", "flags.c_contiguous"]) -> CircleFit:
     """
@@ -2773,6 +3770,28 @@ def fit_sensor_from_gravity(dwell_specific_force: typing.Annotated[numpy.typing.
     ------
     InvalidInput
         Gravity not positive, or a dwell without a finite reading.
+    """
+def follow(commanded: JointTrajectory, joints: HeldJoints) -> JointTrajectory:
+    """
+    The motion that held joints make of a commanded one.
+
+    Parameters
+    ----------
+    commanded : JointTrajectory
+    joints : HeldJoints
+
+    Returns
+    -------
+    JointTrajectory
+
+    Raises
+    ------
+    InvalidInput
+        For another number of joints, or a frequency that is negative or too low to ring.
+
+    References
+    ----------
+    docs/method, (M22).
     """
 @typing.overload
 def forward_kinematics(chain: ScrewChain, q: numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
@@ -3038,6 +4057,25 @@ def interpolate_cubic(knots: typing.Annotated[numpy.typing.NDArray[numpy.float64
     InvalidInput
         Sizes differ or the knots do not increase.
     """
+def joint_compliance(stiffness: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], mass: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    How far joints of a stiffness give way: `SimulationOptions.compliance`.
+
+    Parameters
+    ----------
+    stiffness : (n,) array_like, N m/rad (prismatic: N/m)
+    mass : float, kg
+        The load at the sensor.
+
+    Returns
+    -------
+    (n,) ndarray
+
+    Raises
+    ------
+    InvalidInput
+        For a stiffness that is not positive or a negative mass.
+    """
 def joint_frame(axis_direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """
     The frame O_w of a joint: columns x_w, y_w, z_w in the sensor frame.
@@ -3245,6 +4283,7 @@ def make_rigid_transform(matrix: typing.Annotated[numpy.typing.ArrayLike, numpy.
     InvalidInput
         An entry is not finite, the last row is not (0, 0, 0, 1), or R is not a proper rotation.
     """
+@typing.overload
 def measure(model: AccelerometerModel, specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], angular_velocity: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
     """
     What the sensor reads at every sample, without noise.
@@ -3256,6 +4295,8 @@ def measure(model: AccelerometerModel, specific_force: typing.Annotated[numpy.ty
         At the sensor frame's origin, in the sensor frame; at rest +g upwards.
     angular_velocity : (N, 3) ndarray of float64, rad/s
         In the sensor frame.
+    temperature : (N,) ndarray of float64, degrees Celsius, optional
+        Of the sensor; without it the sensor is at its model's reference.
 
     Returns
     -------
@@ -3264,7 +4305,35 @@ def measure(model: AccelerometerModel, specific_force: typing.Annotated[numpy.ty
     Raises
     ------
     InvalidInput
-        When the arrays differ in their number of samples.
+        When the arrays differ in their number of samples, or a temperature is not finite.
+
+    References
+    ----------
+    Canepa, Hollerbach, Boelen 1994, eqs. (9) and (10).
+    """
+@typing.overload
+def measure(model: AccelerometerModel, specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], angular_velocity: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], temperature: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+    """
+    What the sensor reads at every sample, without noise.
+
+    Parameters
+    ----------
+    model : AccelerometerModel
+    specific_force : (N, 3) ndarray of float64, m/s^2
+        At the sensor frame's origin, in the sensor frame; at rest +g upwards.
+    angular_velocity : (N, 3) ndarray of float64, rad/s
+        In the sensor frame.
+    temperature : (N,) ndarray of float64, degrees Celsius, optional
+        Of the sensor; without it the sensor is at its model's reference.
+
+    Returns
+    -------
+    (N, 3) ndarray, m/s^2
+
+    Raises
+    ------
+    InvalidInput
+        When the arrays differ in their number of samples, or a temperature is not finite.
 
     References
     ----------
@@ -3291,6 +4360,18 @@ def orient_axis(direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     -------
     (3,) float64
     """
+def output_current(reading: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], current_scale_factor: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+    """
+    (N, 3) A: what a servo accelerometer of that scale factor (A s^2/m) gives out for readings (N, 3) m/s^2.
+    """
+def paper_acquisition() -> AcquisitionOptions:
+    """
+    The acquisition chain of Canepa, Hollerbach, Boelen 1994, sec. 3: 250 Hz and 1 Hz filters, channels 25 us apart, encoders at 1 kHz; assumed: 16 bits over +-300 m/s^2 at gain 8, filters of second order, 8 analogue instants a sample. Sensor noise and response are not in it.
+    """
+def reading_from_current(current: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], current_scale_factor: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+    """
+    (N, 3) m/s^2: the readings behind currents (N, 3) A.
+    """
 def rebase(chain: ScrewChain, reference_configuration: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> ScrewChain:
     """
     The same chain at another reference configuration (n,), in the sensor frame there; home is the identity.
@@ -3300,19 +4381,23 @@ def rebase(chain: ScrewChain, reference_configuration: typing.Annotated[numpy.ty
     InvalidInput
         reference_configuration does not have one entry per joint.
     """
+def response_section(response: SecondOrderResponse, sample_rate: typing.SupportsFloat | typing.SupportsIndex, exact_at: typing.SupportsFloat | typing.SupportsIndex) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[1, 6]"]:
+    """
+    (1, 6) second-order section of a sampled response, exact at 0 and at `exact_at` Hz.
+    """
 def rest_band(encoder_step: typing.SupportsFloat | typing.SupportsIndex, options: StaticIntervalOptions = ...) -> float:
     """
-    The band a joint at rest stays in for `rest_window` seconds.
+    The band a revolute joint at rest stays in for `rest_window` seconds.
 
     Parameters
     ----------
-    encoder_step : float, rad or m
+    encoder_step : float, rad
     options : StaticIntervalOptions
 
     Returns
     -------
     float
-        The larger of 1.5 encoder steps and `min_velocity * rest_window`, rad or m.
+        The larger of 1.5 encoder steps and `min_velocity * rest_window`, rad.
     """
 def retract(line: Line, local: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 1]"]) -> Line:
     """
@@ -3730,6 +4815,10 @@ def transform(T_a_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4
     ------
     InvalidInput
         T_a_b is not a rigid transform.
+    """
+def used_tolerance(response: SecondOrderResponse, bands: collections.abc.Sequence[ResponseBand]) -> float:
+    """
+    The largest part of a band's tolerance that a response uses: at most 1 when it keeps within all.
     """
 def welch(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[n] or [n, k]", "flags.c_contiguous"], sample_rate: typing.SupportsFloat | typing.SupportsIndex, window: typing.Literal['hann', 'boxcar'] = 'hann', nperseg: typing.SupportsInt | typing.SupportsIndex | None = None, noverlap: typing.SupportsInt | typing.SupportsIndex | None = None, detrend: typing.Literal['constant', 'none'] | None = 'constant', scaling: typing.Literal['density', 'spectrum'] = 'density') -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], numpy.typing.NDArray[numpy.float64]]:
     """
