@@ -14,7 +14,7 @@ export CMAKE_CXX_COMPILER_LAUNCHER := ccache
 export CCACHE_BASEDIR := $(CURDIR)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
-.PHONY: help demo reproduce test install system ctest pytest lint stub bench accuracy clean
+.PHONY: help demo reproduce test whole-arm-accuracy install system ctest pytest lint stub bench accuracy clean
 
 help:
 	@sed -n 's/^# //p' Makefile | head -5
@@ -60,7 +60,7 @@ ctest: system
 	ctest --preset release
 
 pytest: install .venv/dev.stamp
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n $(CMAKE_BUILD_PARALLEL_LEVEL)
 
 lint: install .venv/dev.stamp
 	$(BIN)/ruff check .
@@ -70,6 +70,10 @@ lint: install .venv/dev.stamp
 # Errors under the paper's noise model, 100 seeds a figure; fails where a figure exceeds its limit.
 accuracy: install
 	$(BIN)/python bench/python/paper_noise.py
+
+# Efficiency against the Cramer-Rao bound and honesty of the whole-arm estimate, 200 seeds a case (some 40 minutes).
+whole-arm-accuracy: install
+	$(BIN)/python bench/python/whole_arm_accuracy.py 200
 
 bench: system
 	cmake --workflow --preset bench
