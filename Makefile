@@ -67,7 +67,9 @@ lint: install .venv/dev.stamp
 accuracy: install
 	$(BIN)/python bench/python/paper_noise.py
 
-bench: system
+# Ratios to SciPy and NumPy and the distance to the machine's limits, in one process; then the time of each stage.
+bench: install .venv/dev.stamp
+	$(BIN)/python bench/python/bench_kernels.py --out bench/results
 	cmake --workflow --preset bench
 	build/bench/bench/circlepoint_bench
 

@@ -144,6 +144,7 @@ void sum_trapezoids(ConstRows y, Rows integral, ptrdiff_t begin, ptrdiff_t end, 
     right.load(y.first + (i + 1) * y.step);
     const double d = width(i);
     Values to;
+#pragma GCC unroll 8
     for (size_t p = 0; p < Values::count; ++p) {
       sum.part[p] += d * (right.part[p] + left.part[p]) * 0.5;
       to.part[p] = sum.part[p] + shift.part[p];
@@ -189,6 +190,7 @@ void sum_parabolas(ConstRows y, Rows integral, ptrdiff_t begin, ptrdiff_t end, c
     y1.load(y.first + (i + 1) * y.step);
     y2.load(y.first + (i + 2) * y.step);
     Values to_first, to_second;
+#pragma GCC unroll 8
     for (size_t p = 0; p < Values::count; ++p) {
       sum.part[p] += first.at(y0.part[p], y1.part[p], y2.part[p]);
       to_first.part[p] = sum.part[p] + shift.part[p];
@@ -205,6 +207,7 @@ void sum_parabolas(ConstRows y, Rows integral, ptrdiff_t begin, ptrdiff_t end, c
     y1.load(y.first + i * y.step);
     y2.load(y.first + (i + 1) * y.step);
     Values to;
+#pragma GCC unroll 8
     for (size_t p = 0; p < Values::count; ++p) {
       sum.part[p] += last.at(y2.part[p], y1.part[p], y0.part[p]);
       to.part[p] = sum.part[p] + shift.part[p];
@@ -259,6 +262,7 @@ inline __attribute__((always_inline)) void correlate_tile(const double* x, doubl
   using Values = Pack<Lanes>;
   Values sum;
   sum.load(x);
+#pragma GCC unroll 8
   for (size_t p = 0; p < Values::count; ++p) {
     sum.part[p] *= weights[0];
   }
@@ -266,6 +270,7 @@ inline __attribute__((always_inline)) void correlate_tile(const double* x, doubl
     Values after, before;
     after.load(x + j * step);
     before.load(x - j * step);
+#pragma GCC unroll 8
     for (size_t p = 0; p < Values::count; ++p) {
       sum.part[p] += weights[j] * (Symmetric ? after.part[p] + before.part[p] : after.part[p] - before.part[p]);
     }

@@ -26,17 +26,22 @@ constexpr size_t register_width = CIRCLEPOINT_VECTOR_WIDTH;
 template <size_t Width>
 struct VectorOf {
   typedef double type __attribute__((vector_size(Width * sizeof(double))));
+  typedef double anywhere __attribute__((vector_size(Width * sizeof(double)), aligned(alignof(double)), may_alias));
   typedef long long integers __attribute__((vector_size(Width * sizeof(double))));
 };
 using Pair = VectorOf<2>::type;
 
+// Through a type that may lie anywhere: the compiler would copy bytes in narrower registers.
+template <typename Vector>
+using Anywhere = typename VectorOf<sizeof(Vector) / sizeof(double)>::anywhere;
+
 template <typename Vector>
 inline __attribute__((always_inline)) void load_vector(Vector& to, const double* from) {
-  __builtin_memcpy(&to, from, sizeof(Vector));
+  to = *reinterpret_cast<const Anywhere<Vector>*>(from);
 }
 template <typename Vector>
 inline __attribute__((always_inline)) void store_vector(double* to, const Vector& from) {
-  __builtin_memcpy(to, &from, sizeof(Vector));
+  *reinterpret_cast<Anywhere<Vector>*>(to) = from;
 }
 
 /// The narrowest registers that hold so many lanes without being many.
@@ -56,6 +61,7 @@ struct Pack {
   Vector part[count];
 
   inline __attribute__((always_inline)) void load(const double* from) {
+#pragma GCC unroll 8
     for (size_t p = 0; p + 1 < count; ++p) {
       load_vector(part[p], from + p * width);
     }
@@ -76,6 +82,7 @@ struct Pack {
   }
 
   inline __attribute__((always_inline)) void store(double* to) const {
+#pragma GCC unroll 8
     for (size_t p = 0; p + 1 < count; ++p) {
       store_vector(to + p * width, part[p]);
     }
@@ -94,6 +101,7 @@ struct Pack {
   }
 
   inline __attribute__((always_inline)) void fill(double value) {
+#pragma GCC unroll 8
     for (size_t p = 0; p < count; ++p) {
       part[p] = value - Vector{};
     }
