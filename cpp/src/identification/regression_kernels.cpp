@@ -5,6 +5,8 @@
 // path, and blocks of one size: the order of summation is the same everywhere.
 #include "regression_kernels.hpp"
 
+#include <utility>
+
 #include "../core/vector_pack.hpp"
 
 namespace circlepoint::detail {
@@ -66,34 +68,30 @@ struct Block {
   alignas(64) double y[3][block_samples];
 };
 
-// Sums of products with the regressors First, First + 1, ... of each block; x_0 = 1 where Ones.
-template <bool Ones>
-void add_information(const Block& block, ptrdiff_t samples, double* information) {
-  constexpr int first = Ones ? 1 : 0;
-  Quad sums[15] = {};
-  for (ptrdiff_t i = 0; i < samples; i += static_cast<ptrdiff_t>(lanes)) {
-    Quad x[5];
-    for (int k = first; k < 5; ++k) {
-      x[k].load(block.x[k] + i);
-    }
-    int entry = 0;
-#pragma GCC unroll 5
-    for (int k = 0; k < 5; ++k) {
-#pragma GCC unroll 5
-      for (int l = k; l < 5; ++l, ++entry) {
-        if (Ones && l == 0) {
-          continue;
-        }
+constexpr size_t row_of[15] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 4};
+constexpr size_t column_of[15] = {0, 1, 2, 3, 4, 1, 2, 3, 4, 2, 3, 4, 3, 4, 4};
+
+// Entries First, First + 1, ... of the upper triangle, few enough for their sums to stay in registers; x_0 = 1 where Ones.
+template <bool Ones, size_t First, size_t... Entry>
+void add_information(const Block& block, ptrdiff_t samples, double* information, std::index_sequence<Entry...>) {
+  Quad sums[sizeof...(Entry)] = {};
+  const auto load = [&](size_t k, ptrdiff_t i) __attribute__((always_inline)) {
+    Quad x;
+    x.load(block.x[k] + i);
+    return x;
+  };
+  const auto add = [&](Quad& sum, size_t k, size_t l, ptrdiff_t i) __attribute__((always_inline)) {
+    const Quad right = load(l, i);
+    const Quad left = Ones && k == 0 ? right : load(k, i);
 #pragma GCC unroll 2
-        for (size_t p = 0; p < Quad::count; ++p) {
-          sums[entry].part[p] += Ones && k == 0 ? x[l].part[p] : x[k].part[p] * x[l].part[p];
-        }
-      }
+    for (size_t p = 0; p < Quad::count; ++p) {
+      sum.part[p] += Ones && k == 0 ? right.part[p] : left.part[p] * right.part[p];
     }
+  };
+  for (ptrdiff_t i = 0; i < samples; i += static_cast<ptrdiff_t>(lanes)) {
+    (add(sums[Entry], row_of[First + Entry], column_of[First + Entry], i), ...);
   }
-  for (int entry = first; entry < 15; ++entry) {
-    information[entry] += total(sums[entry]);
-  }
+  ((information[First + Entry] += total(sums[Entry])), ...);
 }
 
 // Of channel Channel: its products with the five regressors, with itself and the channels after it.
@@ -146,7 +144,9 @@ void add_block(Block& block, ptrdiff_t samples, RegressionSums* sums) {
   if (Ones) {
     sums->information[0] += static_cast<double>(samples);
   }
-  add_information<Ones>(block, filled, sums->information);
+  constexpr size_t first = Ones ? 1 : 0;
+  add_information<Ones, first>(block, filled, sums->information, std::make_index_sequence<9 - first>{});
+  add_information<Ones, 9>(block, filled, sums->information, std::make_index_sequence<6>{});
   add_channel<Ones, 0>(block, filled, sums->score, sums->squares);
   add_channel<Ones, 1>(block, filled, sums->score, sums->squares + 3);
   add_channel<Ones, 2>(block, filled, sums->score, sums->squares + 5);
