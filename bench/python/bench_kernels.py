@@ -1,8 +1,9 @@
 """Times circlepoint's kernels against what a user would pick instead, and against the machine's limits.
 
-One process, one thread, calls of both sides interleaved; medians of the ratio of neighbouring calls with their quartiles.
-Times are processor time (page faults included), which other load disturbs less. The limits are measured in the same run:
-a fresh copy of the same array, reading it once (BLAS dot), and the latency of the filter's recursion (one channel through
+One process, one thread, calls of both sides interleaved; medians of the ratio of neighbouring calls, with quartiles.
+Times are processor time (page faults included), which other load disturbs less, though a neighbour on the same physical
+core still halves the throughput of ours while it hardly slows what waits. The limits are measured in the same run: a
+fresh copy of the same array, reading it once (BLAS dot), and the latency of the filter's recursion (one channel through
 one section, in the first-level cache, where nothing else takes time). "of limit" is the limit's time over ours.
 """
 
@@ -24,6 +25,7 @@ import scipy
 import scipy.integrate
 import scipy.optimize
 import scipy.signal
+from matplotlib.figure import Figure
 
 import circlepoint as cp
 
@@ -63,7 +65,7 @@ def seconds(call: Call) -> float:
 
 
 def interleaved(calls: list[Call], budget: float) -> np.ndarray:
-    """Times of the calls, (rounds, calls): as many rounds as fit in `budget` seconds, 5 to 201. Short ones are repeated."""
+    """Times of the calls, (rounds, calls): 5 to 201 rounds in about `budget` seconds."""
     first = [seconds(call) for call in calls]
     repeats = [max(1, round(2e-4 / max(t, 1e-7))) for t in first]
     rounds = int(np.clip(budget / max(sum(r * t for r, t in zip(repeats, first, strict=True)), 1e-6), 5, 201))
@@ -173,7 +175,8 @@ def numba_statistics() -> Callable[..., object]:
 def axis_rows(budget: float) -> list[Row]:
     random = np.random.default_rng(2)
     turn = np.linspace(0, 2, POSES)
-    poses = np.column_stack([9 * np.cos(turn), 9 * np.sin(turn), np.full(POSES, 3.0)]) + random.normal(size=(POSES, 3)) / 99
+    circle = np.column_stack([9 * np.cos(turn), 9 * np.sin(turn), np.full(POSES, 3.0)])
+    poses = circle + random.normal(size=(POSES, 3)) / 99
     poses = np.ascontiguousarray(poses @ np.linalg.qr(random.normal(size=(3, 3)))[0])
 
     def with_svd() -> object:
@@ -223,13 +226,9 @@ def machine() -> dict[str, str]:
 
 
 def plot(rows: list[Row], path: pathlib.Path) -> None:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
     shown = [row for row in rows if row.order == "C"]
-    figure, axes = plt.subplots(figsize=(8, 0.24 * len(shown) + 1.5))
+    figure = Figure(figsize=(8, 0.24 * len(shown) + 1.5))
+    axes = figure.subplots()
     places = np.arange(len(shown))
     middle = np.array([row.ratio for row in shown])
     ends = np.array([row.quartiles for row in shown])
@@ -247,7 +246,8 @@ def plot(rows: list[Row], path: pathlib.Path) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--samples", type=lambda text: int(float(text)), nargs="+", default=[5_000, 1_000_000, 10_000_000])
+    sizes = [5_000, 1_000_000, 10_000_000]
+    parser.add_argument("--samples", type=lambda text: int(float(text)), nargs="+", default=sizes)
     parser.add_argument("--channels", type=int, nargs="+", default=[3, 10])
     parser.add_argument("--orders", nargs="+", choices=["C", "F"], default=["C", "F"])
     parser.add_argument("--budget", type=float, default=4.0, help="seconds a comparison (at least 5 rounds)")

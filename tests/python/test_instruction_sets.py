@@ -75,13 +75,15 @@ def test_paths_give_the_same_bits_for_statistics(n):
 
 
 @pytest.mark.parametrize("channels", CHANNELS)
-def test_filters_and_integrals_agree_with_scipy_on_every_path(path, channels):
+@pytest.mark.usefixtures("path")
+def test_filters_and_integrals_agree_with_scipy_on_every_path(channels):
     x = random_samples(500, channels)
     sos = lowpass(4)
     np.testing.assert_array_equal(cp.sosfilt(sos, x), scipy.signal.sosfilt(sos, x, axis=0))
     np.testing.assert_allclose(cp.sosfiltfilt(sos, x), scipy.signal.sosfiltfilt(sos, x, axis=0), rtol=0, atol=1e-12)
     np.testing.assert_array_equal(
-        cp.cumulative_trapezoid(x, dx=0.1, initial=0), scipy.integrate.cumulative_trapezoid(x, dx=0.1, axis=0, initial=0)
+        cp.cumulative_trapezoid(x, dx=0.1, initial=0),
+        scipy.integrate.cumulative_trapezoid(x, dx=0.1, axis=0, initial=0),
     )
     np.testing.assert_allclose(
         cp.cumulative_simpson(x, dx=0.1), scipy.integrate.cumulative_simpson(x, dx=0.1, axis=0), rtol=0, atol=1e-12
@@ -93,7 +95,8 @@ def test_filters_and_integrals_agree_with_scipy_on_every_path(path, channels):
 
 @pytest.mark.parametrize(("btype", "cutoff"), [("lowpass", 20.0), ("lowpass", 2.0), ("highpass", 5.0)])
 @pytest.mark.parametrize("rows", [100_000, 131_072, 200_003])
-def test_a_signal_filtered_block_by_block_agrees_with_scipy(path, rows, btype, cutoff):
+@pytest.mark.usefixtures("path")
+def test_a_signal_filtered_block_by_block_agrees_with_scipy(rows, btype, cutoff):
     x = 1.0 + np.cumsum(random_samples(rows, 3), axis=0) / 100
     sos = cp.butter(4, cutoff, 500.0, btype)
     reference = scipy.signal.sosfiltfilt(sos, x, axis=0)
@@ -112,7 +115,8 @@ def test_channels_of_a_long_signal_are_filtered_independently():
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 @pytest.mark.parametrize("rows", [1_000, 100_000])
-def test_a_value_that_is_not_finite_spoils_its_channel_and_no_other_as_in_scipy(path, rows, bad):
+@pytest.mark.usefixtures("path")
+def test_a_value_that_is_not_finite_spoils_its_channel_and_no_other_as_in_scipy(rows, bad):
     x = random_samples(rows, 3)
     x[rows // 2, 1] = bad
     y = cp.sosfiltfilt(lowpass(4), x)
@@ -124,7 +128,8 @@ def test_a_value_that_is_not_finite_spoils_its_channel_and_no_other_as_in_scipy(
 
 @pytest.mark.parametrize("scale", [1.0, 1e4, 1e7])
 @pytest.mark.parametrize("n", [1, 4, 300, 5001])
-def test_joint_statistics_equal_the_sums_of_numpy(path, n, scale):
+@pytest.mark.usefixtures("path")
+def test_joint_statistics_equal_the_sums_of_numpy(n, scale):
     angle, rate, acceleration, readings = statistics_inputs(n)
     angle = scale * angle
     rotation = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
@@ -137,7 +142,8 @@ def test_joint_statistics_equal_the_sums_of_numpy(path, n, scale):
     assert statistics.count == n
 
 
-def test_statistics_of_regressors_equal_the_fused_ones(path):
+@pytest.mark.usefixtures("path")
+def test_statistics_of_regressors_equal_the_fused_ones():
     angle, rate, acceleration, readings = statistics_inputs(777)
     added = cp.RegressionStatistics()
     added.add(cp.joint_regressors(angle, rate, acceleration), readings)
@@ -146,14 +152,16 @@ def test_statistics_of_regressors_equal_the_fused_ones(path):
         np.testing.assert_allclose(ours, reference, rtol=0, atol=1e-11)
 
 
-def test_one_sample_shows_cosine_and_sine_to_the_last_digits(path):
+@pytest.mark.usefixtures("path")
+def test_one_sample_shows_cosine_and_sine_to_the_last_digits():
     for angle in [0.0, 1e-9, 0.7, np.pi / 4, np.pi / 2, 2.0, np.pi, -2.5, 22.0, 355.0, 99_999.0, 1e9]:
         statistics = cp.joint_statistics(np.array([angle]), np.zeros(1), np.zeros(1), np.zeros((1, 3)))
         expected = [1.0, np.cos(angle), np.sin(angle), 0.0, 0.0]
         np.testing.assert_allclose(statistics.information[0], expected, rtol=4e-16, atol=1e-18)
 
 
-def test_a_nan_among_the_angles_is_not_lost(path):
+@pytest.mark.usefixtures("path")
+def test_a_nan_among_the_angles_is_not_lost():
     angle, rate, acceleration, readings = statistics_inputs(300)
     angle[100] = np.nan
     assert np.isnan(cp.joint_statistics(angle, rate, acceleration, readings).information[1, 1])
