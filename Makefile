@@ -75,7 +75,9 @@ accuracy: install
 whole-arm-accuracy: install
 	$(BIN)/python bench/python/whole_arm_accuracy.py 200
 
-bench: system
+# Ratios to SciPy and NumPy and the distance to the machine's limits, in one process; then the time of each stage.
+bench: install .venv/dev.stamp
+	$(BIN)/python bench/python/bench_kernels.py --out bench/results
 	cmake --workflow --preset bench
 	build/bench/bench/circlepoint_bench
 

@@ -268,6 +268,34 @@ docs/method, section 3.
            py::arg("weight") = 1.0, release_gil(), "Add samples: regressors (N, 5), readings (N, 3) m/s^2, common weight.")
       .def("scaled", &RegressionStatistics::scaled, py::arg("weight"), "The statistics times a weight.")
       .def("__add__", [](RegressionStatistics a, const RegressionStatistics& b) { return a += b; });
+  m.def("joint_statistics", &joint_statistics, py::arg("angle").noconvert(), py::arg("rate").noconvert(),
+        py::arg("acceleration").noconvert(), py::arg("readings").noconvert(),
+        py::arg_v("rotation", Eigen::Matrix3d(Eigen::Matrix3d::Identity()), "numpy.eye(3)"), release_gil(), R"(
+Statistics of one motion: its regressors by the readings, in one pass and without the regressors in memory.
+
+Parameters
+----------
+angle, rate, acceleration : (N,) float64
+    rad, rad/s, rad/s^2.
+readings : (N, 3) float64
+    m/s^2.
+rotation : (3, 3) float64
+    Turns the readings from the sensor frame to that of the result.
+
+Returns
+-------
+RegressionStatistics
+    As `add` with `joint_regressors` and the turned readings.
+
+Raises
+------
+InvalidInput
+    On unequal lengths.
+
+References
+----------
+docs/method, section 3.
+)");
   py::class_<JointModel>(m, "JointModel", "What one joint's tests determine, in the sensor frame.")
       .def_readonly("axis", &JointModel::axis, "(3,) unit")
       .def_readonly("lever", &JointModel::lever, "(3,) m, from the axis to the sensor")

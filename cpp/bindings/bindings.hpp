@@ -13,6 +13,7 @@ namespace py = pybind11;
 using release_gil = py::call_guard<py::gil_scoped_release>;
 
 void bind_error(py::module_& m);
+void bind_instruction_set(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_chain(py::module_& m);
 void bind_hayati(py::module_& m);

@@ -26,6 +26,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("__version__") = circlepoint::version;
   m.attr("STANDARD_GRAVITY") = circlepoint::standard_gravity;
   bind_error(m);
+  bind_instruction_set(m);
   bind_geometry(m);
   bind_sensor(m);
   bind_chain(m);

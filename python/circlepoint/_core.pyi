@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'used_tolerance', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InstructionSet', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'available_instruction_sets', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'instruction_set', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_statistics', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'use_instruction_set', 'used_tolerance', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -24,6 +24,13 @@ class DidNotConverge(Error):
     """
     An iteration ended without reaching its tolerance.
     """
+class InstructionSet(enum.Enum):
+    """
+    Vector instructions of the kernels.
+    """
+    avx2 = ...
+    avx512 = ...
+    baseline = ...
 class Line:
     """
     A directed line: unit direction and the point of it nearest the origin.
@@ -3159,6 +3166,14 @@ def analyse_timeline(time: typing.Annotated[numpy.typing.NDArray[numpy.float64],
     InvalidInput
         Fewer than 8 stamps, or one that is not finite.
     """
+def available_instruction_sets() -> list[InstructionSet]:
+    """
+    The vector instructions this processor can run, narrowest first.
+
+    Returns
+    -------
+    list of InstructionSet
+    """
 def axis_in_sensor_frame(chain: ScrewChain, joint: typing.SupportsInt | typing.SupportsIndex, q: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> ScrewAxis:
     """
     The axis of one joint (from 0) in the sensor frame at configuration q (n,); it depends on the joints beyond only.
@@ -4036,6 +4051,14 @@ def hayati_transform(row: HayatiRow, type: JointType, q: typing.SupportsFloat | 
     """
     T_i-1_i (4, 4) of one row at joint value q: Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) Rot_y(beta).
     """
+def instruction_set() -> InstructionSet:
+    """
+    The vector instructions in use: the widest, or what CIRCLEPOINT_INSTRUCTION_SET named when the first kernel ran.
+
+    Returns
+    -------
+    InstructionSet
+    """
 def interpolate_cubic(knots: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], at: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
     Cubic not-a-knot spline through samples.
@@ -4126,6 +4149,33 @@ def joint_rests(recording: Recording, options: StaticIntervalOptions = ...) -> l
     ------
     InvalidInput
         Where the recording's parts do not match, values are not finite or an option is out of its range.
+    """
+def joint_statistics(angle: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], rate: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], acceleration: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], readings: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = ...) -> RegressionStatistics:
+    """
+    Statistics of one motion: its regressors by the readings, in one pass and without the regressors in memory.
+
+    Parameters
+    ----------
+    angle, rate, acceleration : (N,) float64
+        rad, rad/s, rad/s^2.
+    readings : (N, 3) float64
+        m/s^2.
+    rotation : (3, 3) float64
+        Turns the readings from the sensor frame to that of the result.
+
+    Returns
+    -------
+    RegressionStatistics
+        As `add` with `joint_regressors` and the turned readings.
+
+    Raises
+    ------
+    InvalidInput
+        On unequal lengths.
+
+    References
+    ----------
+    docs/method, section 3.
     """
 def joint_trajectory(start: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"], pieces: collections.abc.Sequence[Dwell | PointToPointMove | SteppedSweep | RaisedCosine | MultiJointMotion], sample_rate: typing.SupportsFloat | typing.SupportsIndex, rest: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> JointTrajectory:
     """
@@ -4815,6 +4865,19 @@ def transform(T_a_b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4
     ------
     InvalidInput
         T_a_b is not a rigid transform.
+    """
+def use_instruction_set(path: InstructionSet) -> None:
+    """
+    Choose the vector instructions for the whole process; results stay the same to the last bit.
+
+    Parameters
+    ----------
+    path : InstructionSet
+
+    Raises
+    ------
+    InvalidInput
+        If the processor does not have them.
     """
 def used_tolerance(response: SecondOrderResponse, bands: collections.abc.Sequence[ResponseBand]) -> float:
     """

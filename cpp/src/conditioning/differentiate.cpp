@@ -7,6 +7,7 @@
 
 #include "circlepoint/core/error.hpp"
 #include "result_memory.hpp"
+#include "signal_kernels.hpp"
 
 namespace circlepoint {
 namespace {
@@ -41,40 +42,6 @@ SamplesX window_weights(const Eigen::Ref<const Eigen::VectorXd>& positions, Inde
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(window, positions.size());
   padded.topRows(terms) = solved;
   return (fit.householderQ() * padded).transpose() / std::pow(scale * delta, deriv);
-}
-
-template <bool Symmetric>
-double paired(double after, double before) {
-  return Symmetric ? after + before : after - before;
-}
-
-// y[i] = w[0] x[i] + sum_j w[j] (x[i + j step] +- x[i - j step]) over a flat array, a tile of results at a time.
-template <bool Symmetric>
-void correlate(const double* x, double* y, Index values, const Eigen::VectorXd& weights, Index step) {
-  constexpr Index tile = 8;
-  const double* w = weights.data();
-  const Index half = weights.size() - 1;
-  Index i = 0;
-  for (; i + tile <= values; i += tile) {
-    Eigen::Array<double, tile, 1> sum = w[0] * Eigen::Map<const Eigen::Array<double, tile, 1>>(x + i);
-    for (Index j = 1; j <= half; ++j) {
-      const Eigen::Map<const Eigen::Array<double, tile, 1>> after(x + i + j * step);
-      const Eigen::Map<const Eigen::Array<double, tile, 1>> before(x + i - j * step);
-      if constexpr (Symmetric) {
-        sum += w[j] * (after + before);
-      } else {
-        sum += w[j] * (after - before);
-      }
-    }
-    Eigen::Map<Eigen::Array<double, tile, 1>>(y + i) = sum;
-  }
-  for (; i < values; ++i) {
-    double sum = w[0] * x[i];
-    for (Index j = 1; j <= half; ++j) {
-      sum += w[j] * paired<Symmetric>(x[i + j * step], x[i - j * step]);
-    }
-    y[i] = sum;
-  }
 }
 
 }  // namespace
@@ -130,11 +97,7 @@ SamplesX savgol_filter(const Eigen::Ref<const SamplesX>& x, Index window_length,
   const double* inner_x = (x.outerStride() == channels ? x.data() : copy.data()) + half * channels;
   double* inner_y = y.data() + half * channels;
   const Index inner_values = (n - 2 * half) * channels;
-  if (deriv % 2 == 0) {
-    correlate<true>(inner_x, inner_y, inner_values, one_sided, channels);
-  } else {
-    correlate<false>(inner_x, inner_y, inner_values, one_sided, channels);
-  }
+  detail::signal_kernels().correlate(inner_x, inner_y, inner_values, one_sided.data(), half, channels, deriv % 2 == 0);
   return y;
 }
 

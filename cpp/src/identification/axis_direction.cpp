@@ -18,27 +18,56 @@ namespace {
 
 struct Scatter {
   Eigen::Vector3d mean;
-  Eigen::Vector3d eigenvalues;  // ascending, of the weighted mean square
+  Eigen::Matrix3d moment;       // of the weighted mean square about the mean
+  Eigen::Vector3d eigenvalues;  // ascending
   Eigen::Matrix3d eigenvectors;
 };
 
-Scatter scatter_of(const Eigen::Ref<const Samples3>& f, const Eigen::VectorXd& weights) {
-  const double total = weights.sum();
+// weight(i) of row i; `total` their sum.
+template <typename Weight>
+Scatter scatter_of(const Eigen::Ref<const Samples3>& f, const Weight& weight, double total) {
   Scatter scatter;
-  scatter.mean = (f.transpose() * weights) / total;
-  const Samples3 centred = f.rowwise() - scatter.mean.transpose();
-  const Eigen::Matrix3d moment = centred.transpose() * weights.asDiagonal() * centred / total;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < f.rows(); ++i) {
+    sum += weight(i) * f.row(i).transpose();
+  }
+  scatter.mean = sum / total;
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (Index i = 0; i < f.rows(); ++i) {
+    const double x = f(i, 0) - scatter.mean.x(), y = f(i, 1) - scatter.mean.y(), z = f(i, 2) - scatter.mean.z();
+    const double wx = weight(i) * x, wy = weight(i) * y;
+    xx += wx * x;
+    xy += wx * y;
+    xz += wx * z;
+    yy += wy * y;
+    yz += wy * z;
+    zz += weight(i) * z * z;
+  }
+  scatter.moment << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  scatter.moment /= total;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter.moment);
   scatter.eigenvalues = solver.eigenvalues().cwiseMax(0.0);
   scatter.eigenvectors = solver.eigenvectors();
   return scatter;
 }
 
+Scatter scatter_of(const Eigen::Ref<const Samples3>& f) {
+  return scatter_of(f, [](Index) { return 1.0; }, static_cast<double>(f.rows()));
+}
+
+Scatter scatter_of(const Eigen::Ref<const Samples3>& f, const Eigen::VectorXd& weights) {
+  return scatter_of(f, [&](Index i) { return weights[i]; }, weights.sum());
+}
+
 void validate(const Eigen::Ref<const Samples3>& f) {
-  require(f.rows() >= 3, "an axis direction needs at least 3 static poses, got " + std::to_string(f.rows()) +
-                             "; hold the joint still at more angles");
+  if (f.rows() < 3) {
+    throw InvalidInput("an axis direction needs at least 3 static poses, got " + std::to_string(f.rows()) +
+                       "; hold the joint still at more angles");
+  }
   for (Index i = 0; i < f.rows(); ++i) {
-    require(f.row(i).allFinite(), "specific_force row " + std::to_string(i) + " is not finite; remove or repair that pose");
+    if (!f.row(i).allFinite()) {
+      throw InvalidInput("specific_force row " + std::to_string(i) + " is not finite; remove or repair that pose");
+    }
   }
 }
 
@@ -54,7 +83,7 @@ void require_plane(const Scatter& scatter, Index poses) {
 }
 
 // Information of the direction in its tangent plane, per unit noise variance.
-AxisDirectionFit describe(const Eigen::Ref<const Samples3>& f, const Scatter& scatter, const Eigen::VectorXd& weights) {
+AxisDirectionFit describe(const Scatter& scatter, const Eigen::VectorXd& weights) {
   AxisDirectionFit fit;
   fit.direction = scatter.eigenvectors.col(0);
   fit.offset = fit.direction.dot(scatter.mean);
@@ -64,9 +93,7 @@ AxisDirectionFit describe(const Eigen::Ref<const Samples3>& f, const Scatter& sc
   const double dof = std::max(1.0, total - 3.0);
   fit.residual_std = std::sqrt(scatter.eigenvalues[0] * total / dof);
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(fit.direction);
-  const Samples3 centred = f.rowwise() - scatter.mean.transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, 2> in_plane = centred * basis;
-  const Eigen::Matrix2d information = in_plane.transpose() * weights.asDiagonal() * in_plane;
+  const Eigen::Matrix2d information = total * (basis.transpose() * scatter.moment * basis);
   fit.covariance = fit.residual_std * fit.residual_std * information.inverse();
   return fit;
 }
@@ -141,10 +168,9 @@ double median(std::vector<double> values) {
 
 AxisDirectionFit fit_axis_direction(const Eigen::Ref<const Samples3>& specific_force) {
   validate(specific_force);
-  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(specific_force.rows());
-  const Scatter scatter = scatter_of(specific_force, weights);
+  const Scatter scatter = scatter_of(specific_force);
   require_plane(scatter, specific_force.rows());
-  return describe(specific_force, scatter, weights);
+  return describe(scatter, Eigen::VectorXd::Ones(specific_force.rows()));
 }
 
 AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& specific_force, const RobustOptions& options) {
@@ -153,7 +179,7 @@ AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& spe
                                         "; give a positive number, or infinity for plain least squares");
   const Index poses = specific_force.rows();
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(poses);
-  AxisDirectionFit fit = describe(specific_force, scatter_of(specific_force, weights), weights);
+  AxisDirectionFit fit = describe(scatter_of(specific_force, weights), weights);
   Eigen::Vector3d z = fit.direction;
   double c = fit.offset;
   if (options.chart == AxisChart::hemisphere) {
@@ -180,7 +206,7 @@ AxisDirectionFit fit_axis_direction_robust(const Eigen::Ref<const Samples3>& spe
   }
   const Scatter scatter = scatter_of(specific_force, weights);
   require_plane(scatter, poses);
-  fit = describe(specific_force, scatter, weights);
+  fit = describe(scatter, weights);
   // At the chart's edge the solver stops without having arrived; the scatter of the same weights knows the minimum.
   const bool arrived = z.cross(fit.direction).norm() < 1e-6;
   fit.direction = z.dot(fit.direction) >= 0.0 ? z : Eigen::Vector3d(-z);

@@ -12,6 +12,7 @@
 
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/geometry/rigid_transform.hpp"
+#include "regression_kernels.hpp"
 
 namespace circlepoint {
 namespace {
@@ -224,13 +225,40 @@ void describe_at_solution(JointModelFit& fit, const Whitened& whitened, const Jo
   }
 }
 
+void require_equal_lengths(const Eigen::Ref<const Eigen::VectorXd>& angle, const Eigen::Ref<const Eigen::VectorXd>& rate,
+                           const Eigen::Ref<const Eigen::VectorXd>& acceleration) {
+  require(rate.size() == angle.size() && acceleration.size() == angle.size(),
+          "angle, rate and acceleration have " + std::to_string(angle.size()) + ", " + std::to_string(rate.size()) + " and " +
+              std::to_string(acceleration.size()) + " samples; give one of each per sample");
+}
+
+// The sums as matrices, of readings turned by `rotation`.
+RegressionStatistics statistics_of(const detail::RegressionSums& sums, Index samples, const Eigen::Matrix3d& rotation) {
+  RegressionStatistics statistics;
+  for (int k = 0, entry = 0; k < 5; ++k) {
+    for (int l = k; l < 5; ++l, ++entry) {
+      statistics.information(k, l) = statistics.information(l, k) = sums.information[entry];
+    }
+  }
+  Eigen::Matrix3d squares;
+  squares << sums.squares[0], sums.squares[1], sums.squares[2],  //
+      sums.squares[1], sums.squares[3], sums.squares[4],         //
+      sums.squares[2], sums.squares[4], sums.squares[5];
+  statistics.score = Eigen::Map<const Eigen::Matrix<double, 5, 3, Eigen::RowMajor>>(sums.score);
+  if (!rotation.isIdentity(0.0)) {
+    statistics.score *= rotation.transpose();
+    squares = rotation * squares * rotation.transpose();
+  }
+  statistics.squares = squares.diagonal();
+  statistics.count = static_cast<double>(samples);
+  return statistics;
+}
+
 }  // namespace
 
 Regressors joint_regressors(const Eigen::Ref<const Eigen::VectorXd>& angle, const Eigen::Ref<const Eigen::VectorXd>& rate,
                             const Eigen::Ref<const Eigen::VectorXd>& acceleration) {
-  require(rate.size() == angle.size() && acceleration.size() == angle.size(),
-          "angle, rate and acceleration have " + std::to_string(angle.size()) + ", " + std::to_string(rate.size()) + " and " +
-              std::to_string(acceleration.size()) + " samples; give one of each per sample");
+  require_equal_lengths(angle, rate, acceleration);
   Regressors regressors(angle.size(), 5);
   regressors.col(0).setOnes();
   regressors.col(1) = angle.array().cos();
@@ -244,10 +272,23 @@ void RegressionStatistics::add(const Eigen::Ref<const Regressors>& regressors, c
                                double weight) {
   require(regressors.rows() == readings.rows(), "regressors have " + std::to_string(regressors.rows()) + " rows and readings " +
                                                     std::to_string(readings.rows()) + "; give one of each per sample");
-  information += weight * regressors.transpose() * regressors;
-  score += weight * regressors.transpose() * readings;
-  squares += weight * readings.colwise().squaredNorm().transpose();
-  count += weight * static_cast<double>(readings.rows());
+  detail::RegressionSums sums{};
+  detail::regression_kernels().add_rows(regressors.data(), regressors.outerStride(), readings.data(), readings.outerStride(),
+                                        readings.rows(), &sums);
+  *this += statistics_of(sums, readings.rows(), Eigen::Matrix3d::Identity()).scaled(weight);
+}
+
+RegressionStatistics joint_statistics(const Eigen::Ref<const Eigen::VectorXd>& angle, const Eigen::Ref<const Eigen::VectorXd>& rate,
+                                      const Eigen::Ref<const Eigen::VectorXd>& acceleration, const Eigen::Ref<const Samples3>& readings,
+                                      const Eigen::Matrix3d& rotation) {
+  require_equal_lengths(angle, rate, acceleration);
+  require(readings.rows() == angle.size(), "there are " + std::to_string(angle.size()) + " angles and " +
+                                               std::to_string(readings.rows()) + " readings; give one of each per sample");
+  const Samples3 copy = readings.outerStride() == 3 ? Samples3() : Samples3(readings);
+  detail::RegressionSums sums{};
+  detail::regression_kernels().add_motion(angle.data(), rate.data(), acceleration.data(),
+                                          copy.size() > 0 ? copy.data() : readings.data(), angle.size(), &sums);
+  return statistics_of(sums, angle.size(), rotation);
 }
 
 RegressionStatistics& RegressionStatistics::operator+=(const RegressionStatistics& other) {

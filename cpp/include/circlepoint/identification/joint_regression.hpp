@@ -43,6 +43,13 @@ struct RegressionStatistics {
   [[nodiscard]] RegressionStatistics scaled(double weight) const;
 };
 
+/// Statistics of samples of one motion, the sum of joint_regressors' rows by the readings turned by `rotation` (sensor frame
+/// to the frame of the result), in one pass over the data and without the regressors in memory. angle, rate, acceleration: (N)
+/// rad, rad/s, rad/s^2; readings: (N, 3) m/s^2. Raises InvalidInput on unequal lengths.
+RegressionStatistics joint_statistics(const Eigen::Ref<const Eigen::VectorXd>& angle, const Eigen::Ref<const Eigen::VectorXd>& rate,
+                                      const Eigen::Ref<const Eigen::VectorXd>& acceleration, const Eigen::Ref<const Samples3>& readings,
+                                      const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
+
 struct JointModel {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();      ///< z, unit
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();      ///< b, m
