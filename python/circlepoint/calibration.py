@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from circlepoint.document import Document
 
 Method = Literal["whole-arm", "joint", "position", "velocity"]
-DhConversion = circlepoint.StandardDhConversion | circlepoint.ModifiedDhConversion
+DhConversion = circlepoint.StandardDhConversion | circlepoint.ModifiedDhConversion | circlepoint.HayatiConversion
 
 UNSPECIFIED_SENSOR = "generic"
 """Preset taken when nothing is said of the sensor; the dwells then set how wide its figures are."""
@@ -30,6 +31,9 @@ UNSPECIFIED_SENSOR = "generic"
 CLOCK_OFFSET_STD = 0.05
 """s; what the alignment of two clocks by the arm's activity may be off."""
 CLOCK_RATE_STD = 1e-3
+
+NEAR_PARALLEL = 0.05
+"""rad; a Denavit-Hartenberg row between axes that enclose an angle magnifies their errors by one over its sine."""
 
 
 @dataclass(frozen=True)
@@ -108,8 +112,9 @@ class Calibration:
         The estimate of everything at once, where that was the method.
     chain : ScrewChain or None
         All axes, base frame = sensor frame at the reference configuration; None while a joint is missing.
-    dh : StandardDhConversion, ModifiedDhConversion or None
-        The same chain in the arm's Denavit-Hartenberg convention.
+    dh : StandardDhConversion, ModifiedDhConversion, HayatiConversion or None
+        The same chain in the arm's Denavit-Hartenberg convention; where axes are nearly parallel to their neighbours,
+        with a Hayati row before each such axis.
     fits : tuple of NamedFit
         Each test's signals and model.
     document : dict
@@ -245,6 +250,15 @@ def _to_dh(chain: circlepoint.ScrewChain | None, arm: Arm) -> DhConversion | Non
     if chain is None:
         return None
     nominal = nominal_dh_chain(arm)
+    if _near_parallel(chain):
+        return circlepoint.to_hayati(
+            chain, nominal if isinstance(nominal, circlepoint.StandardDhChain) else None, NEAR_PARALLEL
+        )
     if isinstance(nominal, circlepoint.ModifiedDhChain):
         return circlepoint.to_modified_dh(chain, nominal)
     return circlepoint.to_standard_dh(chain, nominal)
+
+
+def _near_parallel(chain: circlepoint.ScrewChain) -> bool:
+    directions = [axis.line.direction for axis in chain.axes]
+    return any(np.linalg.norm(np.cross(one, other)) < np.sin(NEAR_PARALLEL) for one, other in pairwise(directions))

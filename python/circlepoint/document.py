@@ -31,6 +31,7 @@ SCHEMA_NAME = "circlepoint/calibration/1"
 Document = dict[str, Any]
 
 DH_PARAMETERS = ("a", "alpha", "d", "theta")
+HAYATI_PARAMETERS = (*DH_PARAMETERS, "beta")
 
 
 def load_schema() -> Document:
@@ -52,23 +53,20 @@ def estimate_entry(estimate: ArrayLike | None, std: ArrayLike | None) -> Documen
     return {"estimate": plain(estimate), "std": plain(std)}
 
 
-def dh_row_entry(values: Sequence[float], stds: Sequence[float | None], free: Sequence[bool]) -> Document:
-    """Return a row of Denavit-Hartenberg parameters.
+def dh_row_entry(values: Mapping[str, float], stds: Sequence[float | None], free: Sequence[bool]) -> Document:
+    """Return a row of Denavit-Hartenberg or Hayati parameters.
 
     Parameters
     ----------
-    values : sequence of float
-        a, alpha, d, theta; m and rad.
+    values : mapping
+        a, alpha, d, theta and, of a Hayati row, beta; m and rad.
     stds : sequence of (float or None)
         Their standard deviations; None where there is none.
     free : sequence of bool
         Whether each is a choice that only places the base or the tool.
     """
     spread: list[float | str | None] = ["free" if choice else std for std, choice in zip(stds, free, strict=True)]
-    return {
-        **dict(zip(DH_PARAMETERS, map(float, values), strict=True)),
-        "std": dict(zip(DH_PARAMETERS, spread, strict=True)),
-    }
+    return {**{name: float(value) for name, value in values.items()}, "std": dict(zip(values, spread, strict=True))}
 
 
 def joint_entry(

@@ -8,6 +8,8 @@ import numpy as np
 
 import circlepoint
 from circlepoint.document import (
+    DH_PARAMETERS,
+    HAYATI_PARAMETERS,
     SCHEMA_NAME,
     Document,
     dh_row_entry,
@@ -58,7 +60,7 @@ def result_document(
     segmentation : Segmentation
     joints : JointCalibration
     chain : ScrewChain or None
-    dh : StandardDhConversion, ModifiedDhConversion or None
+    dh : StandardDhConversion, ModifiedDhConversion, HayatiConversion or None
     """
     estimated = [estimate.joint for estimate in joints.joints if estimate.axis is not None]
     return {
@@ -228,22 +230,35 @@ def _dh_entry(
 ) -> Document | None:
     if chain is None or dh is None:
         return None
-    jacobian = circlepoint.dh_parameter_jacobian(chain, dh)
-    variance = np.einsum("ij,jk,ik->i", jacobian, joints.covariance, jacobian).reshape(-1, 4)
+    hayati = isinstance(dh, circlepoint.HayatiConversion)
+    names = HAYATI_PARAMETERS if hayati else DH_PARAMETERS
+    jacobian = (
+        circlepoint.hayati_parameter_jacobian(chain, dh)
+        if isinstance(dh, circlepoint.HayatiConversion)
+        else circlepoint.dh_parameter_jacobian(chain, dh)
+    )
+    variance = np.einsum("ij,jk,ik->i", jacobian, joints.covariance, jacobian).reshape(-1, len(names))
     rows = [
         dh_row_entry(
-            (row.a, row.alpha, row.d, row.theta),
+            {name: getattr(row, name) for name in names},
             [None if np.isnan(v) else float(np.sqrt(max(v, 0.0))) for v in variances],
             free,
         )
         for row, variances, free in zip(dh.chain.rows, variance, np.asarray(dh.free, dtype=bool).tolist(), strict=True)
     ]
+    if isinstance(dh, circlepoint.HayatiConversion):
+        for entry, row in zip(rows, dh.chain.rows, strict=True):
+            entry["form"] = row.form.name
+        pairs = [index for index, row in enumerate(dh.chain.rows) if row.form == circlepoint.RowForm.hayati]
+    else:
+        pairs = [pair.first for pair in dh.near_parallel]
+    modified = isinstance(dh.chain, circlepoint.ModifiedDhChain)
     return {
-        "convention": "modified" if isinstance(dh.chain, circlepoint.ModifiedDhChain) else "standard",
+        "convention": "hayati" if hayati else "modified" if modified else "standard",
         "rows": rows,
         "base": plain(dh.chain.base),
         "tool": plain(dh.chain.tool),
-        "near_parallel": [[arm.joints[pair.first].name, arm.joints[pair.first + 1].name] for pair in dh.near_parallel],
+        "near_parallel": [[arm.joints[first].name, arm.joints[first + 1].name] for first in pairs],
     }
 
 

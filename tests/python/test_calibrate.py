@@ -182,3 +182,45 @@ def test_intervals_are_honest_over_repeated_calibrations(method, specified, vibr
     # half counts are taken in full: rather too wide than too narrow.
     assert squares.max() < 2.0, squares
     assert squares.min() > 0.05, squares
+
+
+def test_nearly_parallel_axes_get_hayati_rows_whose_lengths_stay_short():
+    lines = [([0.9, 0.1, 0.3], [0.1, 0.6, -0.3]), ([0.9, 0.102, 0.3], [0.1, 0.2, -0.1]), LINES[2], LINES[3]]
+    axes = [
+        circlepoint.ScrewAxis(
+            type=circlepoint.JointType.revolute, line=circlepoint.make_line(np.array(direction), np.array(point))
+        )
+        for direction, point in lines
+    ]
+    chain = circlepoint.ScrewChain(axes, np.zeros(4))
+    pieces = [circlepoint.MultiJointMotion(duration=30.0, amplitude=np.full(4, 1.2), seed=2)]
+    trajectory = circlepoint.joint_trajectory(START, pieces, 200.0, 0.6)
+    recording = circlepoint.simulate(
+        chain, UP, circlepoint.AccelerometerModel(), trajectory, circlepoint.SimulationOptions(noise_std=0.005)
+    )
+    result = calibrate(recording, an_arm(), sensor=load_sensor("ideal"))
+    document = result.document
+    jsonschema.Draft202012Validator(load_schema()).validate(document)
+    dh = document["dh"]
+    assert dh["convention"] == "hayati"
+    assert dh["near_parallel"] == [["base", "shoulder"]]
+    assert [row["form"] for row in dh["rows"]] == ["hayati", "dh", "dh", "dh"]
+    assert all(abs(row[name]) < 2.0 for row in dh["rows"] for name in ("a", "d"))
+    assert all(std == "free" or std < 1e-3 for row in dh["rows"] for std in row["std"].values())
+    rows = [
+        circlepoint.HayatiRow(
+            **{name: row[name] for name in ("a", "alpha", "d", "theta", "beta")},
+            form=circlepoint.RowForm[row["form"]],
+        )
+        for row in dh["rows"]
+    ]
+    read_back = circlepoint.HayatiChain(
+        rows, [circlepoint.JointType.revolute] * 4, base=np.array(dh["base"]), tool=np.array(dh["tool"])
+    )
+    poses = np.random.default_rng(3).uniform(-np.pi, np.pi, (1000, 4))
+    np.testing.assert_allclose(
+        circlepoint.forward_kinematics(read_back, poses),
+        circlepoint.forward_kinematics(result.chain, poses),
+        rtol=0,
+        atol=1e-9,
+    )

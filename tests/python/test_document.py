@@ -36,7 +36,10 @@ def a_document(*, complete=True):
     stds = [1e-4, 1e-5, 1e-4, None]
     dh = {
         "convention": "standard",
-        "rows": [dh_row_entry([0.1, 0.0, 0.0, 1.0], stds, [False, False, k == 0, k == 0]) for k in range(2)],
+        "rows": [
+            dh_row_entry({"a": 0.1, "alpha": 0.0, "d": 0.0, "theta": 1.0}, stds, [False, False, k == 0, k == 0])
+            for k in range(2)
+        ],
         "base": np.eye(4),
         "tool": np.eye(4),
         "near_parallel": [["pan", "slide"]],

@@ -147,10 +147,14 @@ def _dh_section(document: Document) -> str:
     parts = [tables.dh_table(document)]
     parallel = "; ".join(" and ".join(pair) for pair in dh.get("near_parallel") or [])
     if parallel:
-        text = f"Nearly parallel neighbours: {parallel}. Their common normal, and so a and d, is poorly defined; "
-        parts.append(
-            paragraph(text + "the arm as a whole is not: use the joint lines or the product of exponentials.", "soft")
-        )
+        text = f"Nearly parallel neighbours: {parallel}. "
+        if dh.get("convention") == "hayati":
+            text += (
+                "Their common normal is far away, so the first of each pair has a Hayati row, with \u03b2 instead of d."
+            )
+        else:
+            text += "Their common normal, and so a and d, is poorly defined; the arm as a whole is not: use the lines."
+        parts.append(paragraph(text, "soft"))
     frames = tables.frame_table("Base frame", dh.get("base")) + tables.frame_table("Tool frame", dh.get("tool"))
     if frames:
         parts.append(f"<details><summary>Base and tool frames</summary><div class=pair>{frames}</div></details>")

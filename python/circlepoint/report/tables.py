@@ -18,7 +18,7 @@ from circlepoint.report.rounding import (
     format_value,
     significant,
 )
-from circlepoint.report.text import dh_cell, dh_columns, line_components, milli
+from circlepoint.report.text import dh_cell, dh_columns, dh_title, line_components, milli
 
 _sensor_rows = [  # key, label, names of the components, unit, factor from SI
     ("bias", "bias", "xyz", "mm/s²", 1e3),
@@ -75,14 +75,13 @@ def dh_table(document: Document) -> str:
     joints: Sequence[Document] = document["joints"]
     names = [_joint_name(i, joints[i]) if i < len(joints) else str(i + 1) for i in range(len(rows))]
     columns = [Column("joint", names, "name")]
-    symbols = {"a": "a", "alpha": "\N{GREEK SMALL LETTER ALPHA}", "d": "d", "theta": "θ"}
-    for key, unit, scale in dh_columns():
+    symbols = {"a": "a", "alpha": "\N{GREEK SMALL LETTER ALPHA}", "d": "d", "theta": "θ", "beta": "β"}
+    for key, unit, scale in dh_columns(dh):
         cells = [dh_cell(row, key, scale) for row in rows]
         group = f"{symbols[key]}, {unit}"
         columns.append(Column("value", numbers([value for value, _ in cells]), group=group))
         columns.append(Column("std", [_uncertainty(std) for _, std in cells], "std", group=group))
-    convention = escaped(str(dh.get("convention", "standard")))
-    return table(columns, f"Denavit-Hartenberg parameters, {convention} convention")
+    return table(columns, escaped(dh_title(dh)))
 
 
 def test_table(calibration: CalibrationResult) -> str:

@@ -84,7 +84,7 @@ def format_dh_table(document: Document) -> str:
         return "No Denavit-Hartenberg parameters: they need every joint's axis.\n"
     names = [joint["name"] for joint in document["joints"]]
     columns = [["joint", *(names[i] if i < len(names) else str(i + 1) for i in range(len(rows)))]]
-    for key, unit, scale in dh_columns():
+    for key, unit, scale in dh_columns(dh):
         cells = [dh_cell(row, key, scale) for row in rows]
         values = align_decimals([value for value, _ in cells])
         stds = align_decimals([std for _, std in cells])
@@ -95,23 +95,34 @@ def format_dh_table(document: Document) -> str:
             for value, std in zip(values, stds, strict=True)
         ]
         columns.append([f"{key} {unit}", *joined])
-    lines = [f"{dh.get('convention', 'standard')} Denavit-Hartenberg parameters"]
+    lines = [dh_title(dh)]
     return "\n".join(lines + _layout(columns)) + "\n"
 
 
-def dh_columns() -> list[tuple[str, str, float]]:
+def dh_title(dh: Document) -> str:
+    """Return what the parameters are called."""
+    convention = dh.get("convention", "standard")
+    if convention == "hayati":
+        return "Denavit-Hartenberg parameters, with Hayati rows (beta) before nearly parallel axes"
+    return f"{convention} Denavit-Hartenberg parameters"
+
+
+def dh_columns(dh: Document) -> list[tuple[str, str, float]]:
     """Return the parameters in their order: key, unit shown, factor from SI."""
-    return [
+    columns = [
         ("a", "mm", 1e3),
         ("alpha", "deg", math.degrees(1.0)),
         ("d", "mm", 1e3),
         ("theta", "deg", math.degrees(1.0)),
     ]
+    return [*columns, ("beta", "deg", math.degrees(1.0))] if dh.get("convention") == "hayati" else columns
 
 
 def dh_cell(row: Document, key: str, scale: float) -> tuple[str, str]:
     """Return value and uncertainty of one parameter of a row; the uncertainty of a free one is the word."""
     value, std = number(row.get(key)), row.get("std", {}).get(key)
+    if key == ("d" if row.get("form") == "hayati" else "beta" if "form" in row else None):
+        return "", ""  # not a parameter of this row
     if std == FREE:
         return format_value(0.0 if value is None else value * scale, 0 if not value else 3), FREE
     std = number(std)
