@@ -63,9 +63,11 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const SmoothJoints& joints = span.joints[choose_smoothing(span, moving, joint, resolution)];
       stretch.position.col(joint) = joints.position(index, joint);
-      stretch.velocity.col(joint) = joints.velocity(index, joint);
-      stretch.acceleration.col(joint) = joints.acceleration(index, joint);
-      stretch.jerk.col(joint) = joints.jerk(index, joint);
+      const Index begin = index[0];
+      const Index count = index[index.size() - 1] - begin + 1;
+      stretch.velocity.col(joint) = joints.derivative(1, joint, begin, count)(index - index[0]);
+      stretch.acceleration.col(joint) = joints.derivative(2, joint, begin, count)(index - index[0]);
+      stretch.jerk.col(joint) = joints.derivative(3, joint, begin, count)(index - index[0]);
     }
     stretch.reading = span.reading(index, Eigen::all);
     stretch.time = recording.time(stretch.sample);
@@ -155,6 +157,39 @@ void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
   }
 }
 
+// The highest frequency, Hz, that any joint's motion between two dwells has by its peak speed and travel.
+double motion_frequency(const Recording& recording, const Segmentation& segmentation) {
+  constexpr double least_travel = 0.05;  // rad or m
+  const auto window = std::max<Index>(1, static_cast<Index>(std::lround(0.1 * recording.sample_rate)));
+  double highest = 0.0;
+  const auto consider = [&](const IndexRange& range) {
+    if (range.size() <= 3 * window) {
+      return;
+    }
+    for (Index joint = 0; joint < recording.joints(); ++joint) {
+      const Eigen::VectorXd position = recording.joint_positions.col(joint).segment(range.begin, range.size());
+      const double travel = position.maxCoeff() - position.minCoeff();
+      if (travel > least_travel) {
+        const Index count = range.size() - window;
+        const double fastest = (position.tail(count) - position.head(count)).cwiseAbs().maxCoeff() * recording.sample_rate /
+                               static_cast<double>(window);
+        highest = std::max(highest, fastest / (std::numbers::pi * travel));
+      }
+    }
+  };
+  for (const IndexRange& span : recording.spans) {
+    Index begin = span.begin;
+    for (const StaticDwell& dwell : segmentation.dwells) {
+      if (dwell.samples.begin >= span.begin && dwell.samples.end <= span.end) {
+        consider({begin, dwell.samples.begin});
+        begin = dwell.samples.end;
+      }
+    }
+    consider({begin, span.end});
+  }
+  return highest;
+}
+
 }  // namespace
 
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows) {
@@ -211,17 +246,23 @@ Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance) {
   return before;
 }
 
-double choose_common_cutoff(const Recording& recording, const Eigen::VectorXd& resolution) {
-  constexpr double widest = 10.0;     // Hz, the paper's choice; arms begin to bend and ring above it
+double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
+  constexpr double widest = 10.0;
+  constexpr double narrowest = 4.0;
+  constexpr double harmonics = 12.0;
   constexpr double tolerated = 0.1;   // rad/s^2 of differentiated counts
+  const double frequency = motion_frequency(recording, segmentation);
   double cutoff = std::min(widest, 0.2 * recording.sample_rate);
+  if (frequency > 0.0) {
+    cutoff = std::min(cutoff, std::max(narrowest, harmonics * frequency));
+  }
   const double coarsest = resolution.size() > 0 ? resolution.maxCoeff() : 0.0;
   if (coarsest > 0.0) {
     // White quantisation noise of coarsest / sqrt(12), differentiated twice and cut at c:
     // std = coarsest / sqrt(12) sqrt(2 c / rate) (2 pi c)^2 / sqrt(5).
     const double per_unit = coarsest / std::sqrt(12.0) * std::sqrt(2.0 / recording.sample_rate) * 4.0 * std::numbers::pi *
                             std::numbers::pi / std::sqrt(5.0);
-    cutoff = std::min(cutoff, std::max(4.0, std::pow(tolerated / per_unit, 0.4)));
+    cutoff = std::min(cutoff, std::max(narrowest, std::pow(tolerated / per_unit, 0.4)));
   }
   return cutoff;
 }

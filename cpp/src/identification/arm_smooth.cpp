@@ -21,17 +21,22 @@ SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, doub
 
 }  // namespace
 
+Eigen::VectorXd SmoothJoints::derivative(int order, Index joint, Index begin, Index count) const {
+  // Of the sixth-degree polynomial through seven samples: two-point differences would shrink it by (2 pi f / rate)^2 / 6.
+  constexpr Index window = 7;
+  const Index first = std::clamp<Index>(begin - window, 0, std::max<Index>(0, position.rows() - window));
+  const Index last = std::min(position.rows(), std::max(begin + count + window, first + window));
+  const SamplesX around = position.col(joint).segment(first, last - first);
+  return savgol_filter(around, window, window - 1, order, 1.0 / rate).col(0).segment(begin - first, count);
+}
+
 SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope) {
   const double rate = recording.sample_rate;
   SmoothSpan result;
   result.samples = span;
   const SamplesX position = recording.joint_positions.middleRows(span.begin, span.size());
   for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
-    SmoothJoints joints{mine, low_pass(position, mine, rate), {}, {}, {}};
-    joints.velocity = savgol_filter(joints.position, 7, 6, 1, 1.0 / rate);
-    joints.acceleration = savgol_filter(joints.position, 7, 6, 2, 1.0 / rate);
-    joints.jerk = savgol_filter(joints.position, 7, 6, 3, 1.0 / rate);
-    result.joints.push_back(std::move(joints));
+    result.joints.push_back({mine, rate, low_pass(position, mine, rate)});
   }
   SamplesX reading(span.size(), gyroscope ? 6 : 3);
   reading.leftCols(3) = recording.specific_force.middleRows(span.begin, span.size());
@@ -76,9 +81,9 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     if (travel <= few_counts * resolution[j] || travel <= 0.0) {
       continue;
     }
-    const double fastest = joints.velocity.col(j).segment(begin, moving.size()).cwiseAbs().maxCoeff();
+    const double fastest = joints.derivative(1, j, begin, moving.size()).cwiseAbs().maxCoeff();
     const double own = std::pow(2.0 * fastest / travel, 2) * fastest;
-    step = step || joints.jerk.col(j).segment(begin, moving.size()).array().abs() > beyond * own;
+    step = step || joints.derivative(3, j, begin, moving.size()).array().abs() > beyond * own;
   }
   if (static_cast<double>(step.count()) > too_many * static_cast<double>(moving.size())) {
     return {moving};
@@ -105,7 +110,7 @@ std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& movin
   for (Index j = 0; j < resolution.size(); ++j) {
     const double travel = range(span, moving, j);
     if (travel > few_counts * resolution[j]) {
-      const auto velocity = span.joints.front().velocity.col(j).segment(moving.begin - span.samples.begin, moving.size());
+      const Eigen::VectorXd velocity = span.joints.front().derivative(1, j, moving.begin - span.samples.begin, moving.size());
       frequency = std::max(frequency, velocity.cwiseAbs().maxCoeff() / (std::numbers::pi * travel));
     }
   }

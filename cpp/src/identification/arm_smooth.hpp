@@ -7,12 +7,14 @@
 
 namespace circlepoint {
 
+// Positions are kept, derivatives taken where they are asked for: a long recording's would be most of the memory.
 struct SmoothJoints {
   double cutoff = 0.0;  // Hz
+  double rate = 0.0;    // Hz
   SamplesX position;
-  SamplesX velocity;
-  SamplesX acceleration;
-  SamplesX jerk;
+
+  // Derivative of one joint's position over rows [begin, begin + count) of the span.
+  [[nodiscard]] Eigen::VectorXd derivative(int order, Index joint, Index begin, Index count) const;
 };
 
 struct SmoothSpan {

@@ -135,8 +135,11 @@ void prepare(TestMotion& motion, const Eigen::VectorXd& home, const ArmRows& row
     const Index begin = mine.begin - span.samples.begin;
     const Index size = mine.size();
     const SmoothJoints& joints = span.joints[smoothing_for_motion(span, mine, resolution)];
-    const auto part = [&](const SamplesX& samples) { return samples.col(motion.joint).segment(begin, size).array(); };
-    motion.phi.push_back(raw_functions(part(joints.position), part(joints.velocity), part(joints.acceleration)).rowwise() -
+    const Eigen::VectorXd velocity = joints.derivative(1, motion.joint, begin, size);
+    const Eigen::VectorXd acceleration = joints.derivative(2, motion.joint, begin, size);
+    motion.phi.push_back(raw_functions(joints.position.col(motion.joint).segment(begin, size).array(), velocity.array(),
+                                       acceleration.array())
+                             .rowwise() -
                          motion.home);
     scatter += motion.phi.back().transpose() * motion.phi.back();
     count += static_cast<double>(size);

@@ -379,7 +379,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   ArmProblem problem;
   problem.threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   result.gyroscope_used = options.use_gyroscope && recording.angular_velocity.has_value();
-  result.cutoff = options.cutoff > 0.0 ? options.cutoff : choose_common_cutoff(recording, resolution);
+  result.cutoff = options.cutoff > 0.0 ? options.cutoff : choose_common_cutoff(recording, segmentation, resolution);
   problem.rows = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used);
   result.samples = problem.rows.samples;
   if (problem.rows.stretches.empty()) {
