@@ -249,7 +249,7 @@ Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance) {
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
   constexpr double widest = 10.0;
   constexpr double narrowest = 4.0;
-  constexpr double harmonics = 12.0;
+  constexpr double harmonics = 20.0;
   constexpr double tolerated = 0.1;   // rad/s^2 of differentiated counts
   const double frequency = motion_frequency(recording, segmentation);
   double cutoff = std::min(widest, 0.2 * recording.sample_rate);

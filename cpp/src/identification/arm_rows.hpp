@@ -77,7 +77,7 @@ void add_term(DwellRow& dwell, const OffsetTerm& term, double shape);
 // Adds parameters with the given prior; the first one's index.
 Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance);
 
-// Hz: twelve times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 10, above which arms
+// Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 10, above which arms
 // bend and ring (the paper's choice), nor less than 4; less where coarse counts, differentiated twice, would drown the readings.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
