@@ -11,6 +11,8 @@ PACKAGES := g++ cmake ninja-build make python3-venv python3-dev ccache libeigen3
             libgtest-dev libgmock-dev libbenchmark-dev
 SOURCES := CMakeLists.txt pyproject.toml README.md LICENSE $(shell find cmake cpp python -type f -not -path '*/__pycache__/*')
 export CMAKE_CXX_COMPILER_LAUNCHER := ccache
+# One name for the compiler in every build: the cache tells c++ and g++ apart.
+export CXX
 export CCACHE_BASEDIR := $(CURDIR)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
