@@ -61,7 +61,7 @@ def test_wrong_arguments_end_with_status_2(arguments, capsys):
 def test_a_log_without_tests_says_what_to_record_of_which_joint(still_log, capsys):
     assert main(["check", *still_log]) == 1
     printed = capsys.readouterr().out
-    assert "2 of 2 joints cannot be calibrated from this log: pan, tilt" in printed
+    assert "2 of 2 joints cannot be calibrated on their own from this log: pan, tilt" in printed
     assert "pan, tilt: no test of it alone" in printed
     assert "move it alone to and fro" in printed
 

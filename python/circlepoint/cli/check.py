@@ -103,7 +103,8 @@ def format_check(result: LogCheck) -> str:
     lines += _wrapped(_few_gaps([_short(finding.message, result) for finding in result.findings]), "findings")
     missing = [joint.joint.name for joint in result.joints if joint.status == "missing"]
     lines.append(
-        f"{len(missing)} of {len(result.joints)} joints cannot be calibrated from this log: {', '.join(missing)}"
+        f"{len(missing)} of {len(result.joints)} joints cannot be calibrated on their own from this log: "
+        f"{', '.join(missing)}; where they move together with others, `calibrate` (whole-arm) may still find them"
         if missing
         else "every joint can be calibrated from this log"
     )

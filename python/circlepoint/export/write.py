@@ -189,7 +189,8 @@ def _content(export: Export, out: Path) -> str:
     if ending in {".yaml", ".yml"}:
         return export.texts.get(".yaml") or yaml_text(export.document)
     known = ", ".join(dict.fromkeys([*export.texts, *_DOCUMENT_ENDINGS]))
-    raise InvalidInput(f"{out}: the form {export.form} is not written as {ending or 'it has no ending'!r}; use {known}")
+    fault = f"the form {export.form} is not written as {ending!r}" if ending else "the file's name has no ending"
+    raise InvalidInput(f"{out}: {fault}; use {known}")
 
 
 def _description(folder: Path, given: Path | None) -> Description | None:
