@@ -28,54 +28,6 @@ Eigen::Matrix<double, 6, 4> line_twists(const ScrewAxis& axis) {
 
 }  // namespace
 
-ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<const Eigen::VectorXd>& step) {
-  ArmState next = state;
-  for (std::size_t i = 0; i < state.axes.size(); ++i) {
-    if (layout.lines[i] < 0) {
-      continue;
-    }
-    Eigen::Vector4d local = Eigen::Vector4d::Zero();
-    if (state.axes[i].type == JointType::revolute) {
-      local = step.segment<4>(layout.lines[i]);
-    } else {
-      local.head<2>() = step.segment<2>(layout.lines[i]);
-    }
-    next.axes[i].line = retract(state.axes[i].line, local);
-  }
-  const auto add = [&](Index column, Eigen::Vector3d& value) {
-    if (column >= 0) {
-      value += step.segment<3>(column);
-    }
-  };
-  add(layout.up_gravity, next.up_gravity);
-  add(layout.bias, next.sensor.bias);
-  add(layout.scale, next.sensor.scale);
-  add(layout.misalignment, next.sensor.misalignment);
-  add(layout.percussion_distance, next.sensor.percussion_distance);
-  add(layout.second_order, next.sensor.second_order);
-  add(layout.gyroscope_bias, next.gyroscope_bias);
-  const Index joints = state.reference.size();
-  if (layout.clock_offset >= 0) {
-    next.clock_offset += step[layout.clock_offset];
-  }
-  if (layout.clock_rate >= 0) {
-    next.clock_rate += step[layout.clock_rate];
-  }
-  if (layout.encoder_gain >= 0) {
-    next.encoder_gain += step.segment(layout.encoder_gain, joints);
-  }
-  if (layout.eccentricity >= 0) {
-    next.eccentricity.col(0) += step.segment(layout.eccentricity, joints);
-    next.eccentricity.col(1) += step.segment(layout.eccentricity + joints, joints);
-  }
-  if (layout.gyroscope_matrix >= 0) {
-    for (int k = 0; k < 9; ++k) {
-      next.gyroscope_matrix(k / 3, k % 3) += step[layout.gyroscope_matrix + k];
-    }
-  }
-  return next;
-}
-
 ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
     : state_(state), layout_(layout), joints_(state.reference.size()) {
   const auto links = static_cast<std::size_t>(joints_) + 1;
@@ -216,11 +168,8 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
     Eigen::Matrix<double, 3, 6> by_twist = by_force * (by_twist_[i] - by_twist_[i + 1]);
     by_twist.leftCols<3>() += by_rate * (rate_by_rotation_[i] - rate_by_rotation_[i + 1]);
     const Eigen::Matrix<double, 3, 4> by_line = by_twist * line_twists(state_.axes[i]);
-    if (state_.axes[i].type == JointType::revolute) {
-      jacobian.middleCols<4>(column) = by_line;
-    } else {
-      jacobian.middleCols<2>(column) = by_line.leftCols<2>();
-    }
+    const Index count = line_columns(state_.axes[i]);
+    jacobian.middleCols(column, count) = by_line.leftCols(count);
   }
   if (layout_.up_gravity >= 0) {
     jacobian.middleCols<3>(layout_.up_gravity) = by_force * to_sensor_[0].transpose();

@@ -11,42 +11,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "circlepoint/geometry/screw_axis.hpp"
-#include "circlepoint/identification/whole_arm.hpp"
-#include "circlepoint/sensor/accelerometer.hpp"
+#include "arm_state.hpp"
 
 namespace circlepoint {
-
-struct ArmState {
-  std::vector<ScrewAxis> axes;  // base to tip, sensor frame at the reference configuration
-  Eigen::VectorXd reference;    // (n)
-  Eigen::Vector3d up_gravity = Eigen::Vector3d::Zero();
-  AccelerometerModel sensor;
-  double clock_offset = 0.0;    // s: the sample stamped t shows the joints at t - clock_offset - (clock_rate - 1) (t - middle)
-  double clock_rate = 1.0;
-  Eigen::VectorXd encoder_gain;                       // (n) relative error of the joints' encoders
-  Eigen::Matrix<double, Eigen::Dynamic, 2> eccentricity;  // (n, 2) rad: of cos(q) and sin(q)
-  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();       // rad/s
-  Eigen::Matrix3d gyroscope_matrix = Eigen::Matrix3d::Identity();  // reading = matrix w + bias
-};
-
-// Columns of the parameter vector: each group begins at its column, or at -1 when it is fixed.
-struct ArmLayout {
-  std::vector<Index> lines;  // (n) first column of each joint's line: 4 revolute, 2 prismatic; -1: the joint never moves
-  Index up_gravity = -1;
-  Index bias = -1;
-  Index scale = -1;
-  Index misalignment = -1;
-  Index percussion_distance = -1;
-  Index second_order = -1;
-  Index clock_offset = -1;
-  Index clock_rate = -1;
-  Index encoder_gain = -1;
-  Index eccentricity = -1;
-  Index gyroscope_bias = -1;
-  Index gyroscope_matrix = -1;
-  Index columns = 0;
-};
 
 // Joints at one instant.
 struct JointInstant {
@@ -63,9 +30,6 @@ struct ByJoint {
   Eigen::MatrixXd velocity;
   Eigen::MatrixXd acceleration;
 };
-
-// The state moved by a step in the layout's coordinates (lines: their local coordinates).
-ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<const Eigen::VectorXd>& step);
 
 // Evaluates one instant at a time; keeps its workspace.
 class ArmPredictor {

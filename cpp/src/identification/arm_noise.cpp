@@ -10,6 +10,8 @@ namespace {
 
 constexpr Index highest_order = 8;
 constexpr Index rows_per_coefficient = 25;
+constexpr double knock = 6.0;          // standard deviations
+constexpr double model_failure = 0.2;  // share of rows beyond which knocks are none
 
 MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size_t>& members, Index channels) {
   MotionNoise noise;
@@ -142,6 +144,86 @@ void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::Matr
       whiten(noise.channels[3 * triad + static_cast<std::size_t>(channel)], columns.middleRows(at + channel * rows, rows));
     }
   }
+}
+
+void name_kinds(ArmRows& rows, Index joints) {
+  constexpr Index shortest = 100;
+  std::vector<Index> count(static_cast<std::size_t>(joints) + 1, 0);
+  const auto slot = [joints](const MovingStretch& stretch) {
+    return static_cast<std::size_t>(stretch.joint >= 0 ? stretch.joint : joints);
+  };
+  for (const MovingStretch& stretch : rows.stretches) {
+    count[slot(stretch)] += stretch.rows();
+  }
+  std::vector<Index> kind(count.size(), -1);
+  Index kinds = 0;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (count[i] >= shortest) {
+      kind[i] = kinds++;
+    }
+  }
+  Index shared = -1;
+  for (MovingStretch& stretch : rows.stretches) {
+    Index& mine = kind[slot(stretch)];
+    if (mine < 0) {
+      shared = shared < 0 ? kinds++ : shared;
+      mine = shared;
+    }
+    stretch.noise = mine;
+  }
+}
+
+Index cut_knocks(ArmRows& rows, const StretchResiduals& whitened_residuals, const Eigen::MatrixXd& dwells_normalized) {
+  constexpr Index margin = 4;
+  constexpr Index shortest = 5;
+  std::vector<MovingStretch> kept;
+  Index removed = 0;
+  Index total = 0;
+  for (std::size_t i = 0; i < rows.stretches.size(); ++i) {
+    const MovingStretch& stretch = rows.stretches[i];
+    const Eigen::MatrixXd& whitened = whitened_residuals[i];
+    std::vector<bool> bad(static_cast<std::size_t>(stretch.rows()), false);
+    for (Index row = 0; row < stretch.rows(); ++row) {
+      if (whitened.row(row).cwiseAbs().maxCoeff() > knock) {
+        for (Index k = std::max<Index>(0, row - margin); k < std::min(stretch.rows(), row + margin + 1); ++k) {
+          bad[static_cast<std::size_t>(k)] = true;
+        }
+      }
+    }
+    total += stretch.rows();
+    Index begin = 0;
+    for (Index row = 0; row <= stretch.rows(); ++row) {
+      const bool ends = row == stretch.rows() || bad[static_cast<std::size_t>(row)];
+      if (!ends) {
+        continue;
+      }
+      if (row - begin >= shortest) {
+        std::vector<Index> good(static_cast<std::size_t>(row - begin));
+        std::iota(good.begin(), good.end(), begin);
+        kept.push_back(picked(stretch, good));
+      } else {
+        removed += row - begin;
+      }
+      removed += row < stretch.rows() ? 1 : 0;
+      begin = row + 1;
+    }
+  }
+  if (static_cast<double>(removed) > model_failure * static_cast<double>(total)) {
+    return 0;
+  }
+  rows.stretches = std::move(kept);
+  std::vector<DwellRow> dwells;
+  for (std::size_t i = 0; i < rows.dwells.size(); ++i) {
+    if (dwells_normalized.row(static_cast<Index>(i)).cwiseAbs().maxCoeff() <= knock) {
+      dwells.push_back(rows.dwells[i]);
+    }
+  }
+  const auto dropped = static_cast<Index>(rows.dwells.size() - dwells.size());
+  if (static_cast<double>(dropped) <= model_failure * static_cast<double>(rows.dwells.size())) {
+    rows.dwells = std::move(dwells);
+    removed += dropped;
+  }
+  return removed;
 }
 
 }  // namespace circlepoint

@@ -35,4 +35,11 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
 // Whitens a stretch in place: `columns` (M * channels, k), channel-major within (channel c: rows c M ... (c + 1) M - 1).
 void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns);
 
+// Kinds of motion: each joint alone, and all others; a kind too short for a noise model of its own joins the others.
+void name_kinds(ArmRows& rows, Index joints);
+
+// Leaves out the rows around whitened residuals beyond six standard deviations, and such dwells; how many. Where too many lie
+// there the model is wrong and none is left out.
+Index cut_knocks(ArmRows& rows, const StretchResiduals& whitened_residuals, const Eigen::MatrixXd& dwells_normalized);
+
 }  // namespace circlepoint

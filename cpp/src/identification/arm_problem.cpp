@@ -1,7 +1,5 @@
 #include "arm_problem.hpp"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
@@ -143,149 +141,6 @@ void for_each(const ArmProblem& problem, const ArmState& state, std::size_t coun
   }
 }
 
-// A state as a flat block for Ceres: lines as direction and point, then all else.
-class FlatState {
- public:
-  FlatState(const ArmState& shape, const ArmLayout& layout) : shape_(shape), layout_(layout) {}
-
-  [[nodiscard]] int size() const {
-    const auto joints = static_cast<int>(shape_.axes.size());
-    return 6 * joints + 3 * joints + 6 * 3 + 2 + 3 + 9;
-  }
-
-  void write(const ArmState& state, double* block) const {
-    const auto put = [&block](double value) { *block++ = value; };
-    const auto put3 = [&put](const Eigen::Vector3d& v) {
-      put(v.x());
-      put(v.y());
-      put(v.z());
-    };
-    for (const ScrewAxis& axis : state.axes) {
-      put3(axis.line.direction);
-      put3(axis.line.point);
-    }
-    for (Index j = 0; j < state.reference.size(); ++j) {
-      put(state.encoder_gain[j]);
-      put(state.eccentricity(j, 0));
-      put(state.eccentricity(j, 1));
-    }
-    put3(state.up_gravity);
-    put3(state.sensor.bias);
-    put3(state.sensor.scale);
-    put3(state.sensor.misalignment);
-    put3(state.sensor.percussion_distance);
-    put3(state.sensor.second_order);
-    put(state.clock_offset);
-    put(state.clock_rate);
-    put3(state.gyroscope_bias);
-    for (int k = 0; k < 9; ++k) {
-      put(state.gyroscope_matrix(k / 3, k % 3));
-    }
-  }
-
-  [[nodiscard]] ArmState read(const double* block) const {
-    ArmState state = shape_;
-    const auto take = [&block] { return *block++; };
-    const auto take3 = [&block] {
-      const Eigen::Vector3d v(block[0], block[1], block[2]);
-      block += 3;
-      return v;
-    };
-    for (ScrewAxis& axis : state.axes) {
-      axis.line.direction = take3();
-      axis.line.point = take3();
-    }
-    for (Index j = 0; j < state.reference.size(); ++j) {
-      state.encoder_gain[j] = take();
-      state.eccentricity(j, 0) = take();
-      state.eccentricity(j, 1) = take();
-    }
-    state.up_gravity = take3();
-    state.sensor.bias = take3();
-    state.sensor.scale = take3();
-    state.sensor.misalignment = take3();
-    state.sensor.percussion_distance = take3();
-    state.sensor.second_order = take3();
-    state.clock_offset = take();
-    state.clock_rate = take();
-    state.gyroscope_bias = take3();
-    for (int k = 0; k < 9; ++k) {
-      state.gyroscope_matrix(k / 3, k % 3) = take();
-    }
-    return state;
-  }
-
-  [[nodiscard]] const ArmLayout& layout() const { return layout_; }
-
- private:
-  const ArmState& shape_;
-  const ArmLayout& layout_;
-};
-
-// Steps are taken in the layout's coordinates. The cost function gives its derivative in them at once, in the first columns of its
-// Jacobian, which is what PlusJacobian picks out.
-class ArmManifold final : public ceres::Manifold {
- public:
-  explicit ArmManifold(const FlatState& flat) : flat_(flat) {}
-  int AmbientSize() const override { return flat_.size(); }
-  int TangentSize() const override { return static_cast<int>(flat_.layout().columns); }
-  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
-    const Eigen::Map<const Eigen::VectorXd> step(delta, TangentSize());
-    flat_.write(moved(flat_.read(x), flat_.layout(), step), x_plus_delta);
-    return true;
-  }
-  bool PlusJacobian(const double*, double* jacobian) const override {
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobian, AmbientSize(), TangentSize())
-        .setIdentity();
-    return true;
-  }
-  bool Minus(const double*, const double*, double*) const override { return false; }
-  bool MinusJacobian(const double*, double*) const override { return false; }
-
- private:
-  const FlatState& flat_;
-};
-
-// The whole problem as columns + 1 residuals: the square root of its normal equations. Same cost and gradient at the state and
-// the same Gauss-Newton matrix, at any number of samples.
-class ArmCost final : public ceres::CostFunction {
- public:
-  ArmCost(const ArmProblem& problem, const FlatState& flat) : problem_(problem), flat_(flat) {
-    set_num_residuals(static_cast<int>(problem.layout.columns) + 1);
-    mutable_parameter_block_sizes()->push_back(flat.size());
-  }
-  bool Evaluate(const double* const* parameters, double* residual, double** jacobians) const override {
-    const ArmState state = flat_.read(parameters[0]);
-    const Index columns = problem_.layout.columns;
-    NormalEquations all = marginal(problem_, linearise_data(problem_, state));
-    all += linearise_prior(problem_, state);
-    // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
-    all.information.diagonal() += 1e-14 * all.information.diagonal();
-    all.information.diagonal().array() += 1e-12;
-    const Eigen::LLT<Eigen::MatrixXd> factor(all.information);
-    if (factor.info() != Eigen::Success) {
-      return false;
-    }
-    Eigen::Map<Eigen::VectorXd> r(residual, columns + 1);
-    r.head(columns) = factor.matrixL().solve(all.gradient);
-    r[columns] = std::sqrt(std::max(0.0, all.cost - r.head(columns).squaredNorm()));
-    if (!r.allFinite()) {
-      return false;
-    }
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], columns + 1,
-                                                                                                 flat_.size());
-      jacobian.setZero();
-      jacobian.topLeftCorner(columns, columns) = factor.matrixU();
-    }
-    return true;
-  }
-
- private:
-  const ArmProblem& problem_;
-  const FlatState& flat_;
-};
-
 }  // namespace
 
 NormalEquations NormalEquations::zero(Index columns) {
@@ -333,66 +188,21 @@ NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquati
 
 }  // namespace
 
-NormalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
+MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
   const Index columns = problem.layout.columns;
   const Index offsets = problem.rows.offset_covariance.rows();
   const NormalEquations all = assemble(problem, parts);
-  NormalEquations reduced{all.information.topLeftCorner(columns, columns), all.gradient.head(columns), all.cost};
+  MarginalEquations reduced{{all.information.topLeftCorner(columns, columns), all.gradient.head(columns), all.cost}, problem.offsets};
   if (offsets > 0) {
     const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
     const Eigen::MatrixXd coupling = factor.matrixL().solve(all.information.bottomLeftCorner(offsets, columns));
     const Eigen::VectorXd gradient = factor.matrixL().solve(all.gradient.tail(offsets));
-    reduced.information -= coupling.transpose() * coupling;
-    reduced.gradient -= coupling.transpose() * gradient;
-    reduced.cost -= gradient.squaredNorm();
+    reduced.equations.information -= coupling.transpose() * coupling;
+    reduced.equations.gradient -= coupling.transpose() * gradient;
+    reduced.equations.cost -= gradient.squaredNorm();
+    reduced.offsets -= factor.matrixU().solve(gradient);
   }
   return reduced;
-}
-
-Eigen::VectorXd best_offsets(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
-  const Index offsets = problem.rows.offset_covariance.rows();
-  if (offsets == 0) {
-    return problem.offsets;
-  }
-  const NormalEquations all = assemble(problem, parts);
-  const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
-  return problem.offsets - factor.solve(all.gradient.tail(offsets));
-}
-
-Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout) {
-  Eigen::VectorXd value = Eigen::VectorXd::Zero(layout.columns);
-  const auto put = [&](Index column, const Eigen::Vector3d& v) {
-    if (column >= 0) {
-      value.segment<3>(column) = v;
-    }
-  };
-  put(layout.up_gravity, state.up_gravity);
-  put(layout.bias, state.sensor.bias);
-  put(layout.scale, state.sensor.scale);
-  put(layout.misalignment, state.sensor.misalignment);
-  put(layout.percussion_distance, state.sensor.percussion_distance);
-  put(layout.second_order, state.sensor.second_order);
-  put(layout.gyroscope_bias, state.gyroscope_bias);
-  const Index joints = state.reference.size();
-  if (layout.clock_offset >= 0) {
-    value[layout.clock_offset] = state.clock_offset;
-  }
-  if (layout.clock_rate >= 0) {
-    value[layout.clock_rate] = state.clock_rate;
-  }
-  if (layout.encoder_gain >= 0) {
-    value.segment(layout.encoder_gain, joints) = state.encoder_gain;
-  }
-  if (layout.eccentricity >= 0) {
-    value.segment(layout.eccentricity, joints) = state.eccentricity.col(0);
-    value.segment(layout.eccentricity + joints, joints) = state.eccentricity.col(1);
-  }
-  if (layout.gyroscope_matrix >= 0) {
-    for (int k = 0; k < 9; ++k) {
-      value[layout.gyroscope_matrix + k] = state.gyroscope_matrix(k / 3, k % 3);
-    }
-  }
-  return value;
 }
 
 std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state) {
@@ -483,30 +293,6 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
     result.dwells_normalized.row(i) = factor.matrixL().solve(residual);
   }
   return result;
-}
-
-ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations) {
-  const FlatState flat(start, problem.layout);
-  std::vector<double> block(static_cast<std::size_t>(flat.size()));
-  flat.write(start, block.data());
-  ceres::Problem ceres_problem;
-  ceres_problem.AddParameterBlock(block.data(), flat.size(), new ArmManifold(flat));
-  ceres_problem.AddResidualBlock(new ArmCost(problem, flat), nullptr, block.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = 1e-9;
-  options.parameter_tolerance = 1e-11;
-  options.gradient_tolerance = 1e-14;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
-  ArmSolution solution;
-  solution.state = flat.read(block.data());
-  solution.cost = 2.0 * summary.final_cost;
-  solution.iterations = static_cast<int>(summary.iterations.size());
-  solution.converged = summary.termination_type == ceres::CONVERGENCE;
-  return solution;
 }
 
 }  // namespace circlepoint

@@ -57,29 +57,18 @@ struct ArmResiduals {
   Eigen::MatrixXd dwells_normalized;  // (D, channels)
 };
 
-// Current values of the layout's columns; a line's are zero.
-Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout);
-
 // Data part: stretches first, in order, then each dwell.
 std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state);
 NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state);
 // The part of it that the magnitude of gravity makes, which counts as data where that is known.
 NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state);
 // All parts in the layout's columns alone: the offsets are minimised over under their prior (Schur complement).
-NormalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts);
-// The offsets that minimise the same at the state the parts were linearised at, for the layout's columns as they are.
-Eigen::VectorXd best_offsets(const ArmProblem& problem, const std::vector<PartEquations>& parts);
+struct MarginalEquations {
+  NormalEquations equations;
+  Eigen::VectorXd offsets;  // (K) that minimise the cost, for the layout's columns as they are
+};
+MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts);
 
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state);
-
-struct ArmSolution {
-  ArmState state;
-  double cost = 0.0;
-  int iterations = 0;
-  bool converged = false;
-};
-
-// Levenberg-Marquardt (Ceres) with the noise as it is.
-ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations);
 
 }  // namespace circlepoint

@@ -93,7 +93,7 @@ NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& pa
     alone.offsets = problem.offsets(offsets);
     add_parameters(alone.rows, problem.rows.offset_covariance(offsets, offsets));
   }
-  return marginal(alone, {renumbered});
+  return marginal(alone, {renumbered}).equations;
 }
 
 // The state the estimate would have been without one part, to first order; none where the rest does not determine it.
@@ -109,53 +109,6 @@ std::optional<ArmState> without(const ArmProblem& problem, const ArmState& state
 }
 
 }  // namespace
-
-std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout& layout) {
-  std::vector<std::string> names(static_cast<std::size_t>(layout.columns));
-  const auto put = [&](Index column, const std::string& name) { names[static_cast<std::size_t>(column)] = name; };
-  const std::array<const char*, 4> line{"d1", "d2", "p1", "p2"};
-  for (std::size_t i = 0; i < state.axes.size(); ++i) {
-    const int count = state.axes[i].type == JointType::revolute ? 4 : 2;
-    for (int k = 0; layout.lines[i] >= 0 && k < count; ++k) {
-      put(layout.lines[i] + k, "joint" + std::to_string(i + 1) + "." + line[static_cast<std::size_t>(k)]);
-    }
-  }
-  const auto triple = [&](Index column, const std::string& name, const std::array<const char*, 3>& suffix) {
-    for (int k = 0; column >= 0 && k < 3; ++k) {
-      put(column + k, name + "_" + suffix[static_cast<std::size_t>(k)]);
-    }
-  };
-  const std::array<const char*, 3> xyz{"x", "y", "z"};
-  triple(layout.up_gravity, "gravity", xyz);
-  triple(layout.bias, "bias", xyz);
-  triple(layout.scale, "scale", xyz);
-  triple(layout.misalignment, "misalignment", {"yx", "zx", "zy"});
-  triple(layout.percussion_distance, "percussion_distance", xyz);
-  triple(layout.second_order, "second_order", xyz);
-  triple(layout.gyroscope_bias, "gyroscope_bias", xyz);
-  if (layout.clock_offset >= 0) {
-    put(layout.clock_offset, "clock_offset");
-  }
-  if (layout.clock_rate >= 0) {
-    put(layout.clock_rate, "clock_rate");
-  }
-  const auto joints = static_cast<Index>(state.axes.size());
-  for (Index j = 0; j < joints; ++j) {
-    const std::string joint = "joint" + std::to_string(j + 1);
-    if (layout.encoder_gain >= 0) {
-      put(layout.encoder_gain + j, joint + ".gain");
-    }
-    if (layout.eccentricity >= 0) {
-      put(layout.eccentricity + j, joint + ".eccentricity_cos");
-      put(layout.eccentricity + joints + j, joint + ".eccentricity_sin");
-    }
-  }
-  for (int k = 0; layout.gyroscope_matrix >= 0 && k < 9; ++k) {
-    put(layout.gyroscope_matrix + k,
-        std::string("gyroscope_") + xyz[static_cast<std::size_t>(k / 3)] + xyz[static_cast<std::size_t>(k % 3)]);
-  }
-  return names;
-}
 
 Identifiability identifiability(const NormalEquations& data, const Eigen::MatrixXd& covariance, const ArmState& state,
                                 const ArmLayout& layout) {

@@ -8,9 +8,6 @@
 
 namespace circlepoint {
 
-// One name a column: joint1.d1 ..., gravity_x, bias_x ...
-std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout& layout);
-
 struct Identifiability {
   int rank = 0;
   double condition_number = 0.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "arm_solve.hpp"
 #include "circlepoint/core/random.hpp"
 
 namespace circlepoint {
@@ -68,15 +69,8 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
   small.noise = white_noise(small.rows, 0.3, 0.3, 0.03);
   small.offsets = Eigen::VectorXd::Zero(small.rows.offset_covariance.rows());
   small.threads = problem.threads;
-  small.layout.lines.assign(moves.size(), -1);
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    if (moves[i]) {
-      small.layout.lines[i] = small.layout.columns;
-      small.layout.columns += known_state.axes[i].type == JointType::revolute ? 4 : 2;
-    }
-  }
-  small.layout.up_gravity = small.layout.columns;
-  small.layout.columns += 3;
+  small.layout.claim_lines(known_state.axes, moves);
+  small.layout.up_gravity = small.layout.claim(3);
 
   double best_cost = std::numeric_limits<double>::infinity();
   int repeats = 0;

@@ -1,0 +1,159 @@
+#include "arm_result.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace circlepoint {
+namespace {
+
+constexpr double vague_direction = 0.02;  // rad, and
+constexpr double vague_point = 0.02;      // m: a line less certain than this is not given
+
+// Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
+// rests on the prior alone, or where it spans more than the linearisation.
+std::string why_vague(const JointAxis& axis, bool gravity_seen) {
+  const bool slides = axis.screw.type == JointType::prismatic;
+  if (!gravity_seen && !slides) {
+    return "gravity hardly turns in the sensor's frame in this recording, so neither its direction nor the sensor's bias can be told "
+           "from the motion; hold still at six or more orientations of the sensor well apart, 1 s each";
+  }
+  std::array<char, 160> text{};
+  if (slides && axis.direction_std() > vague_direction) {
+    std::snprintf(text.data(), text.size(), "its direction is known to +- %.1f mrad only", 1e3 * axis.direction_std());
+    return std::string(text.data()) + "; too little acceleration: move it faster, such as 0.5 Hz over 0.3 m for 6 s";
+  }
+  if (axis.direction_std() > vague_direction || axis.point_std() > vague_point) {
+    std::snprintf(text.data(), text.size(), "its line is known to +- %.1f mrad and +- %.1f mm only", 1e3 * axis.direction_std(),
+                  1e3 * axis.point_std());
+    return std::string(text.data()) + "; move it alone, farther and faster, such as 0.5 Hz over 150 degrees for 6 s";
+  }
+  return {};
+}
+
+}  // namespace
+
+void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmState& state, const Eigen::MatrixXd& covariance,
+                 bool gravity_seen) {
+  const auto joints = static_cast<Index>(state.axes.size());
+  estimate.covariance = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
+  for (Index i = 0; i < joints; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Index column = layout.lines[at];
+    JointEstimate& mine = estimate.joints[at];
+    mine.axis.reset();
+    if (column < 0) {
+      if (mine.reason.empty()) {
+        mine.reason = "it hardly moves in this recording; move it, alone or with others";
+      }
+      continue;
+    }
+    const Index count = line_columns(state.axes[at]);
+    for (Index k = 0; k < joints; ++k) {
+      const Index other = layout.lines[static_cast<std::size_t>(k)];
+      if (other >= 0) {
+        const Index other_count = line_columns(state.axes[static_cast<std::size_t>(k)]);
+        estimate.covariance.block(4 * i, 4 * k, count, other_count) = covariance.block(column, other, count, other_count);
+      }
+    }
+    mine.axis = JointAxis{state.axes[at], estimate.covariance.block<4, 4>(4 * i, 4 * i)};
+    mine.reason = why_vague(*mine.axis, gravity_seen);
+    if (!mine.reason.empty()) {
+      mine.axis.reset();
+    }
+  }
+}
+
+void write_sensor(JointCalibration& estimate, const ArmLayout& layout, const ArmState& state, const Eigen::MatrixXd& covariance) {
+  estimate.up_gravity_sensor = state.up_gravity;
+  estimate.sensor.sensor = state.sensor;
+  estimate.percussion_distance = state.sensor.percussion_distance;
+  estimate.percussion_distance_std.setZero();
+  estimate.sensor.covariance.setZero();
+  const auto spread = [&](Index column, Index at) {
+    if (column >= 0) {
+      estimate.sensor.covariance.block<3, 3>(at, at) = covariance.block<3, 3>(column, column);
+    }
+  };
+  spread(layout.bias, 0);
+  spread(layout.scale, 3);
+  spread(layout.misalignment, 6);
+  spread(layout.second_order, 9);
+  if (layout.percussion_distance >= 0) {
+    estimate.percussion_distance_std = covariance.diagonal().segment<3>(layout.percussion_distance).cwiseMax(0.0).cwiseSqrt();
+  }
+}
+
+void record_signals(JointCalibration& joints, const Segmentation& segmentation, const ArmProblem& problem,
+                    const ArmResiduals& residuals) {
+  joints.fits.clear();
+  for (JointEstimate& estimate : joints.joints) {
+    estimate.fit = -1;
+    Index rows = 0;
+    for (const MovingStretch& stretch : problem.rows.stretches) {
+      rows += stretch.joint == estimate.joint ? stretch.rows() : 0;
+    }
+    Index test = -1;
+    for (std::size_t i = 0; i < segmentation.tests.size() && test < 0; ++i) {
+      test = segmentation.tests[i].joint == estimate.joint ? static_cast<Index>(i) : -1;
+    }
+    if (rows == 0 || test < 0 || !estimate.axis) {
+      continue;
+    }
+    TestFit fit;
+    fit.joint = estimate.joint;
+    fit.test = test;
+    fit.type = estimate.axis->screw.type;
+    fit.configuration = segmentation.tests[static_cast<std::size_t>(test)].configuration;
+    fit.cutoff = problem.rows.cutoff;
+    fit.time.resize(rows);
+    fit.position.resize(rows);
+    fit.measured.resize(rows, 3);
+    fit.modelled.resize(rows, 3);
+    Index at = 0;
+    for (std::size_t i = 0; i < problem.rows.stretches.size(); ++i) {
+      const MovingStretch& stretch = problem.rows.stretches[i];
+      if (stretch.joint != estimate.joint) {
+        continue;
+      }
+      fit.time.segment(at, stretch.rows()) = stretch.time;
+      fit.position.segment(at, stretch.rows()) = stretch.position.col(estimate.joint);
+      fit.measured.middleRows(at, stretch.rows()) = stretch.reading.leftCols<3>();
+      fit.modelled.middleRows(at, stretch.rows()) = stretch.reading.leftCols<3>() + residuals.moving[i].leftCols<3>();
+      at += stretch.rows();
+    }
+    fit.dynamic_noise_std = std::sqrt((fit.measured - fit.modelled).squaredNorm() / (3.0 * static_cast<double>(rows)));
+    std::vector<Index> mine;
+    for (const Index dwell : segmentation.tests[static_cast<std::size_t>(test)].dwells) {
+      const StaticDwell& static_dwell = segmentation.dwells[static_cast<std::size_t>(dwell)];
+      for (std::size_t i = 0; i < problem.rows.dwells.size(); ++i) {
+        if (problem.rows.dwells[i].position == static_dwell.joint_positions) {
+          mine.push_back(static_cast<Index>(i));
+          break;
+        }
+      }
+    }
+    const auto count = static_cast<Index>(mine.size());
+    fit.dwell_positions.resize(count);
+    fit.dwell_measured.resize(count, 3);
+    fit.dwell_modelled.resize(count, 3);
+    for (Index k = 0; k < count; ++k) {
+      const DwellRow& dwell = problem.rows.dwells[static_cast<std::size_t>(mine[static_cast<std::size_t>(k)])];
+      fit.dwell_positions[k] = dwell.position[estimate.joint];
+      fit.dwell_measured.row(k) = dwell.reading.head<3>();
+      fit.dwell_modelled.row(k) = dwell.reading.head<3>().transpose() + residuals.dwells.row(mine[static_cast<std::size_t>(k)]).head<3>();
+    }
+    if (count > 0) {
+      fit.static_noise_std = std::sqrt((fit.dwell_measured - fit.dwell_modelled).squaredNorm() / (3.0 * static_cast<double>(count)));
+    }
+    fit.samples = rows + count;
+    const Eigen::Vector3d& z = estimate.axis->screw.line.direction;
+    fit.gravity_share = joints.up_gravity_sensor.cross(z).norm() / std::max(1e-12, joints.up_gravity_sensor.norm());
+    fit.converged = true;
+    estimate.fit = static_cast<Index>(joints.fits.size());
+    joints.fits.push_back(std::move(fit));
+  }
+}
+
+}  // namespace circlepoint

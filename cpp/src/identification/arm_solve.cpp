@@ -1,0 +1,151 @@
+#include "arm_solve.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace circlepoint {
+namespace {
+
+// A state as a flat block for Ceres: lines as direction and point, then all groups.
+class FlatState {
+ public:
+  FlatState(const ArmState& shape, const ArmLayout& layout) : shape_(shape), layout_(layout) {
+    size_ = 6 * static_cast<Index>(shape.axes.size());
+    for_each_group(shape, layout, [this](Index, const auto& group) { size_ += group.size(); });
+  }
+
+  [[nodiscard]] int size() const { return static_cast<int>(size_); }
+
+  void write(const ArmState& state, double* block) const {
+    Eigen::Map<Eigen::VectorXd> flat(block, size_);
+    Index at = 0;
+    for (const ScrewAxis& axis : state.axes) {
+      flat.segment<3>(at) = axis.line.direction;
+      flat.segment<3>(at + 3) = axis.line.point;
+      at += 6;
+    }
+    for_each_group(state, layout_, [&](Index, const auto& group) {
+      flat.segment(at, group.size()) = group;
+      at += group.size();
+    });
+  }
+
+  [[nodiscard]] ArmState read(const double* block) const {
+    const Eigen::Map<const Eigen::VectorXd> flat(block, size_);
+    ArmState state = shape_;
+    Index at = 0;
+    for (ScrewAxis& axis : state.axes) {
+      axis.line.direction = flat.segment<3>(at);
+      axis.line.point = flat.segment<3>(at + 3);
+      at += 6;
+    }
+    for_each_group(state, layout_, [&](Index, auto group) {
+      group = flat.segment(at, group.size());
+      at += group.size();
+    });
+    return state;
+  }
+
+  [[nodiscard]] const ArmLayout& layout() const { return layout_; }
+
+ private:
+  const ArmState& shape_;
+  const ArmLayout& layout_;
+  Index size_ = 0;
+};
+
+// Steps are taken in the layout's coordinates. The cost function gives its derivative in them at once, in the first columns of its
+// Jacobian, which is what PlusJacobian picks out.
+class ArmManifold final : public ceres::Manifold {
+ public:
+  explicit ArmManifold(const FlatState& flat) : flat_(flat) {}
+  int AmbientSize() const override { return flat_.size(); }
+  int TangentSize() const override { return static_cast<int>(flat_.layout().columns); }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    const Eigen::Map<const Eigen::VectorXd> step(delta, TangentSize());
+    flat_.write(moved(flat_.read(x), flat_.layout(), step), x_plus_delta);
+    return true;
+  }
+  bool PlusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobian, AmbientSize(), TangentSize())
+        .setIdentity();
+    return true;
+  }
+  bool Minus(const double*, const double*, double*) const override { return false; }
+  bool MinusJacobian(const double*, double*) const override { return false; }
+
+ private:
+  const FlatState& flat_;
+};
+
+// The whole problem as columns + 1 residuals: the square root of its normal equations. Same cost and gradient at the state and
+// the same Gauss-Newton matrix, at any number of samples.
+class ArmCost final : public ceres::CostFunction {
+ public:
+  ArmCost(const ArmProblem& problem, const FlatState& flat) : problem_(problem), flat_(flat) {
+    set_num_residuals(static_cast<int>(problem.layout.columns) + 1);
+    mutable_parameter_block_sizes()->push_back(flat.size());
+  }
+  bool Evaluate(const double* const* parameters, double* residual, double** jacobians) const override {
+    const ArmState state = flat_.read(parameters[0]);
+    const Index columns = problem_.layout.columns;
+    NormalEquations all = marginal(problem_, linearise_data(problem_, state)).equations;
+    all += linearise_prior(problem_, state);
+    // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
+    all.information.diagonal() += 1e-14 * all.information.diagonal();
+    all.information.diagonal().array() += 1e-12;
+    const Eigen::LLT<Eigen::MatrixXd> factor(all.information);
+    if (factor.info() != Eigen::Success) {
+      return false;
+    }
+    Eigen::Map<Eigen::VectorXd> r(residual, columns + 1);
+    r.head(columns) = factor.matrixL().solve(all.gradient);
+    r[columns] = std::sqrt(std::max(0.0, all.cost - r.head(columns).squaredNorm()));
+    if (!r.allFinite()) {
+      return false;
+    }
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], columns + 1,
+                                                                                                 flat_.size());
+      jacobian.setZero();
+      jacobian.topLeftCorner(columns, columns) = factor.matrixU();
+    }
+    return true;
+  }
+
+ private:
+  const ArmProblem& problem_;
+  const FlatState& flat_;
+};
+
+}  // namespace
+
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations) {
+  const FlatState flat(start, problem.layout);
+  std::vector<double> block(static_cast<std::size_t>(flat.size()));
+  flat.write(start, block.data());
+  ceres::Problem ceres_problem;
+  ceres_problem.AddParameterBlock(block.data(), flat.size(), new ArmManifold(flat));
+  ceres_problem.AddResidualBlock(new ArmCost(problem, flat), nullptr, block.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-11;
+  options.gradient_tolerance = 1e-14;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_problem, &summary);
+  ArmSolution solution;
+  solution.state = flat.read(block.data());
+  solution.cost = 2.0 * summary.final_cost;
+  solution.iterations = static_cast<int>(summary.iterations.size());
+  solution.converged = summary.termination_type == ceres::CONVERGENCE;
+  return solution;
+}
+
+}  // namespace circlepoint
