@@ -75,7 +75,9 @@ void bind_results(py::module_& m) {
       .def_readonly("weak", &WholeArmCalibration::weak)
       .def_readonly("stretches", &WholeArmCalibration::stretches)
       .def_readonly("cutoff", &WholeArmCalibration::cutoff, "Hz")
-      .def_readonly("normalized_rms", &WholeArmCalibration::normalized_rms)
+      .def_readonly("normalized_rms", &WholeArmCalibration::normalized_rms, "of all whitened residuals, before the inflation")
+      .def_readonly("noise_inflation", &WholeArmCalibration::noise_inflation,
+                    "of the motions' noise variance, so that it covers what stretches disagree by (docs/method, eq. (M31))")
       .def_readonly("samples", &WholeArmCalibration::samples)
       .def_readonly("rows", &WholeArmCalibration::rows)
       .def_readonly("outliers", &WholeArmCalibration::outliers)

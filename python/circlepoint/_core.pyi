@@ -2505,8 +2505,15 @@ class WholeArmCalibration:
         JointCalibration: lines, covariance, gravity, sensor, signals
         """
     @property
+    def noise_inflation(self) -> float:
+        """
+        of the motions' noise variance, so that it covers what stretches disagree by (docs/method, eq. (M31))
+        """
+    @property
     def normalized_rms(self) -> float:
-        ...
+        """
+        of all whitened residuals, before the inflation
+        """
     @property
     def outliers(self) -> int:
         ...

@@ -121,6 +121,7 @@ def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
         "static_noise_std": next((s.residual_rms for s in estimate.stretches if s.name == "dwells"), None),
         "residual_rms": rms,
         "normalised_residual_rms": estimate.normalized_rms,
+        "noise_inflation": estimate.noise_inflation,
         "iterations": estimate.iterations,
         "converged": estimate.converged,
     }

@@ -42,36 +42,40 @@ ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
   place_rate_.resize(links, Eigen::Vector3d::Zero());
 }
 
-JointInstant ArmPredictor::actual(const JointInstant& instant) const {
-  JointInstant now = instant;
+void ArmPredictor::delay(const JointInstant& instant) {
+  stamped_ = instant;
   const double delay = state_.clock_offset + (state_.clock_rate - 1.0) * instant.time_from_middle;
   if (delay != 0.0) {
-    now.position += -delay * instant.velocity + 0.5 * delay * delay * instant.acceleration -
-                    delay * delay * delay / 6.0 * instant.jerk;
-    now.velocity += -delay * instant.acceleration + 0.5 * delay * delay * instant.jerk;
-    now.acceleration -= delay * instant.jerk;
+    stamped_.position += -delay * instant.velocity + 0.5 * delay * delay * instant.acceleration -
+                         delay * delay * delay / 6.0 * instant.jerk;
+    stamped_.velocity += -delay * instant.acceleration + 0.5 * delay * delay * instant.jerk;
+    stamped_.acceleration -= delay * instant.jerk;
   }
+}
+
+void ArmPredictor::correct_encoders() {
+  now_ = stamped_;
   for (Index j = 0; j < joints_; ++j) {
-    const double gain = state_.encoder_gain.size() > 0 ? state_.encoder_gain[j] : 0.0;
-    const double cosine = state_.eccentricity.rows() > 0 ? state_.eccentricity(j, 0) : 0.0;
-    const double sine = state_.eccentricity.rows() > 0 ? state_.eccentricity(j, 1) : 0.0;
+    const double gain = state_.encoder_gain[j];
+    const double cosine = state_.eccentricity(j, 0);
+    const double sine = state_.eccentricity(j, 1);
     if (gain == 0.0 && cosine == 0.0 && sine == 0.0) {
       continue;
     }
-    const double q = now.position[j];
-    const double q_dot = now.velocity[j];
+    const double q = stamped_.position[j];
+    const double q_dot = stamped_.velocity[j];
     const double slope = 1.0 + gain - cosine * std::sin(q) + sine * std::cos(q);
     const double curvature = -cosine * std::cos(q) - sine * std::sin(q);
-    now.position[j] += gain * (q - state_.reference[j]) + cosine * (std::cos(q) - std::cos(state_.reference[j])) +
-                       sine * (std::sin(q) - std::sin(state_.reference[j]));
-    now.velocity[j] = slope * q_dot;
-    now.acceleration[j] = slope * now.acceleration[j] + curvature * q_dot * q_dot;
+    now_.position[j] += gain * (q - state_.reference[j]) + cosine * (std::cos(q) - std::cos(state_.reference[j])) +
+                        sine * (std::sin(q) - std::sin(state_.reference[j]));
+    now_.velocity[j] = slope * q_dot;
+    now_.acceleration[j] = slope * stamped_.acceleration[j] + curvature * q_dot * q_dot;
   }
-  return now;
 }
 
 void ArmPredictor::forward(const JointInstant& instant) {
-  now_ = actual(instant);
+  delay(instant);
+  correct_encoders();
   force_[0] = state_.up_gravity;
   for (Index j = 0; j < joints_; ++j) {
     const auto before = static_cast<std::size_t>(j);
@@ -145,7 +149,6 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant) {
 
 Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian) {
   jacobian.setZero();
-  by_finite_difference(instant, jacobian);
   forward(instant);
   backward();
   const AccelerometerModel& sensor = state_.sensor;
@@ -155,24 +158,23 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
   const Eigen::Matrix3d misalignment = sensor.misalignment_matrix();
   const Eigen::Vector3d u = misalignment * at_channels;
   const Eigen::Vector3d slope = 1.0 + sensor.scale.array() + 2.0 * sensor.second_order.array() * u.array();
-  const Eigen::Matrix3d by_force = slope.asDiagonal() * misalignment;
+  by_force_ = slope.asDiagonal() * misalignment;
   // The centripetal terms' derivative by the sensor's angular velocity.
-  const Eigen::Matrix3d by_rate =
-      -2.0 * by_force * sensor.percussion_distance.asDiagonal() *
-      (Eigen::Vector3d::Ones() * w.transpose() - Eigen::Matrix3d(w.asDiagonal()));
+  by_rate_ = -2.0 * by_force_ * sensor.percussion_distance.asDiagonal() *
+             (Eigen::Vector3d::Ones() * w.transpose() - Eigen::Matrix3d(w.asDiagonal()));
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     const Index column = layout_.lines[i];
     if (column < 0) {
       continue;
     }
-    Eigen::Matrix<double, 3, 6> by_twist = by_force * (by_twist_[i] - by_twist_[i + 1]);
-    by_twist.leftCols<3>() += by_rate * (rate_by_rotation_[i] - rate_by_rotation_[i + 1]);
+    Eigen::Matrix<double, 3, 6> by_twist = by_force_ * (by_twist_[i] - by_twist_[i + 1]);
+    by_twist.leftCols<3>() += by_rate_ * (rate_by_rotation_[i] - rate_by_rotation_[i + 1]);
     const Eigen::Matrix<double, 3, 4> by_line = by_twist * line_twists(state_.axes[i]);
     const Index count = line_columns(state_.axes[i]);
     jacobian.middleCols(column, count) = by_line.leftCols(count);
   }
   if (layout_.up_gravity >= 0) {
-    jacobian.middleCols<3>(layout_.up_gravity) = by_force * to_sensor_[0].transpose();
+    jacobian.middleCols<3>(layout_.up_gravity) = by_force_ * to_sensor_[0].transpose();
   }
   if (layout_.bias >= 0) {
     jacobian.middleCols<3>(layout_.bias).setIdentity();
@@ -186,38 +188,50 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
     jacobian(2, layout_.misalignment + 2) = slope.z() * at_channels.y();
   }
   if (layout_.percussion_distance >= 0) {
-    jacobian.middleCols<3>(layout_.percussion_distance) = -by_force * centripetal.asDiagonal();
+    jacobian.middleCols<3>(layout_.percussion_distance) = -by_force_ * centripetal.asDiagonal();
   }
   if (layout_.second_order >= 0) {
     jacobian.middleCols<3>(layout_.second_order) = u.cwiseAbs2().asDiagonal();
   }
+  by_clocks_and_encoders(jacobian);
   return sense();
 }
 
-// Columns without a closed form here: clocks and encoders, two readings each.
-void ArmPredictor::by_finite_difference(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian) {
-  const auto difference = [&](Index column, double& value, double step) {
-    const double here = value;
-    value = here + step;
-    const Eigen::Vector3d above = reading(instant);
-    value = here - step;
-    jacobian.col(column) = (above - reading(instant)) / (2.0 * step);
-    value = here;
-  };
-  if (layout_.clock_offset >= 0) {
-    difference(layout_.clock_offset, state_.clock_offset, 1e-4);
+// All of them act through the joints' own motion.
+void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+  if (layout_.clock_offset < 0 && layout_.encoder_gain < 0 && layout_.eccentricity < 0) {
+    return;
   }
-  if (layout_.clock_rate >= 0 && layout_.clock_offset >= 0) {
-    jacobian.col(layout_.clock_rate) = instant.time_from_middle * jacobian.col(layout_.clock_offset);
-  }
+  const ByJoint by = by_joint();
   for (Index j = 0; j < joints_; ++j) {
+    const double q = stamped_.position[j];
+    const double q_dot = stamped_.velocity[j];
+    const double q_ddot = stamped_.acceleration[j];
+    const auto column = [&](double position, double velocity, double acceleration) -> Eigen::Vector3d {
+      return by.position.col(j) * position + by.velocity.col(j) * velocity + by.acceleration.col(j) * acceleration;
+    };
+    const double sine = std::sin(q);
+    const double cosine = std::cos(q);
+    if (layout_.clock_offset >= 0) {
+      const double slope = 1.0 + state_.encoder_gain[j] - state_.eccentricity(j, 0) * sine + state_.eccentricity(j, 1) * cosine;
+      const double curvature = -state_.eccentricity(j, 0) * cosine - state_.eccentricity(j, 1) * sine;
+      const double third = 1.0 + state_.encoder_gain[j] - slope;
+      const double jerk = stamped_.jerk[j];
+      jacobian.col(layout_.clock_offset) -= column(slope * q_dot, slope * q_ddot + curvature * q_dot * q_dot,
+                                                   slope * jerk + 3.0 * curvature * q_dot * q_ddot + third * q_dot * q_dot * q_dot);
+    }
     if (layout_.encoder_gain >= 0) {
-      difference(layout_.encoder_gain + j, state_.encoder_gain[j], 1e-5);
+      jacobian.col(layout_.encoder_gain + j) = column(q - state_.reference[j], q_dot, q_ddot);
     }
     if (layout_.eccentricity >= 0) {
-      difference(layout_.eccentricity + j, state_.eccentricity(j, 0), 1e-5);
-      difference(layout_.eccentricity + joints_ + j, state_.eccentricity(j, 1), 1e-5);
+      jacobian.col(layout_.eccentricity + j) =
+          column(cosine - std::cos(state_.reference[j]), -sine * q_dot, -sine * q_ddot - cosine * q_dot * q_dot);
+      jacobian.col(layout_.eccentricity + joints_ + j) =
+          column(sine - std::sin(state_.reference[j]), cosine * q_dot, cosine * q_ddot - sine * q_dot * q_dot);
     }
+  }
+  if (layout_.clock_rate >= 0) {
+    jacobian.col(layout_.clock_rate) = now_.time_from_middle * jacobian.col(layout_.clock_offset);
   }
 }
 
@@ -242,6 +256,23 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian)
       jacobian.col(layout_.clock_rate) = now_.time_from_middle * jacobian.col(layout_.clock_offset);
     }
   }
+  for (Index j = 0; j < joints_ && (layout_.encoder_gain >= 0 || layout_.eccentricity >= 0); ++j) {
+    const auto k = static_cast<std::size_t>(j) + 1;
+    const Eigen::Vector3d turn = state_.axes[k - 1].twist().head<3>();
+    const Eigen::Vector3d by_position = state_.gyroscope_matrix * rate_by_rotation_[k] * turn;
+    const Eigen::Vector3d by_velocity = state_.gyroscope_matrix * to_sensor_[k].transpose() * turn;
+    const double q = stamped_.position[j];
+    const double q_dot = stamped_.velocity[j];
+    if (layout_.encoder_gain >= 0) {
+      jacobian.col(layout_.encoder_gain + j) = by_position * (q - state_.reference[j]) + by_velocity * q_dot;
+    }
+    if (layout_.eccentricity >= 0) {
+      jacobian.col(layout_.eccentricity + j) =
+          by_position * (std::cos(q) - std::cos(state_.reference[j])) - by_velocity * std::sin(q) * q_dot;
+      jacobian.col(layout_.eccentricity + joints_ + j) =
+          by_position * (std::sin(q) - std::sin(state_.reference[j])) + by_velocity * std::cos(q) * q_dot;
+    }
+  }
   if (layout_.gyroscope_bias >= 0) {
     jacobian.middleCols<3>(layout_.gyroscope_bias).setIdentity();
   }
@@ -256,17 +287,16 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian)
 // Everything beyond the joint is displaced by eta = twist q: the point p of the sensor by u = v + z x p, whose own motion in the
 // displaced link adds u'' + 2 w x u' with u' = v' + z' x p + z x p'.
 ByJoint ArmPredictor::by_joint() const {
-  const Eigen::Vector3d slope = 1.0 + state_.sensor.scale.array();
-  const Eigen::Matrix3d by_force = slope.asDiagonal() * state_.sensor.misalignment_matrix();
   ByJoint by{Eigen::MatrixXd(3, joints_), Eigen::MatrixXd(3, joints_), Eigen::MatrixXd(3, joints_)};
   for (Index j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j) + 1;
     const Eigen::Matrix<double, 6, 1> twist = state_.axes[k - 1].twist();
     const Eigen::Vector3d turn = twist.head<3>();
     const Eigen::Vector3d shift = twist.tail<3>() + turn.cross(place_[k]);
-    const Eigen::Matrix3d back = by_force * to_sensor_[k].transpose();
-    by.position.col(j) = by_force * by_twist_[k] * twist;
-    by.velocity.col(j) = 2.0 * back * (rate_[k].cross(shift) + turn.cross(place_rate_[k]));
+    const Eigen::Matrix3d back = by_force_ * to_sensor_[k].transpose();
+    by.position.col(j) = by_force_ * by_twist_[k] * twist + by_rate_ * rate_by_rotation_[k] * turn;
+    by.velocity.col(j) =
+        2.0 * back * (rate_[k].cross(shift) + turn.cross(place_rate_[k])) + by_rate_ * to_sensor_[k].transpose() * turn;
     by.acceleration.col(j) = back * shift;
   }
   return by;

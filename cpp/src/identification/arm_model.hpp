@@ -24,7 +24,7 @@ struct JointInstant {
   Eigen::VectorXd jerk;           // (n)
 };
 
-// d reading / d q, its first and its second derivative: (3, n) each.
+// d reading / d q, d q' and d q'': (3, n) each.
 struct ByJoint {
   Eigen::MatrixXd position;
   Eigen::MatrixXd velocity;
@@ -50,9 +50,10 @@ class ArmPredictor {
  private:
   void forward(const JointInstant& instant);
   void backward();
-  [[nodiscard]] JointInstant actual(const JointInstant& instant) const;
+  void delay(const JointInstant& instant);
+  void correct_encoders();
   [[nodiscard]] Eigen::Vector3d sense() const;
-  void by_finite_difference(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian);
+  void by_clocks_and_encoders(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
 
   ArmState state_;
   const ArmLayout& layout_;
@@ -66,7 +67,10 @@ class ArmPredictor {
   std::vector<Eigen::Matrix3d> rate_by_rotation_;          // d w_sensor / d eta_w
   std::vector<Eigen::Vector3d> place_;            // p of the sensor in each link
   std::vector<Eigen::Vector3d> place_rate_;
-  JointInstant now_;
+  JointInstant stamped_;  // by the encoders, delayed to the sensor's clock
+  JointInstant now_;      // and with the encoders' errors undone
+  Eigen::Matrix3d by_force_ = Eigen::Matrix3d::Identity();  // d reading / d specific force at the channels
+  Eigen::Matrix3d by_rate_ = Eigen::Matrix3d::Zero();       // d reading / d angular velocity of the sensor
 };
 
 }  // namespace circlepoint

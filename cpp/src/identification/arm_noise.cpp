@@ -90,8 +90,9 @@ ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, d
 }
 
 ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
-                        const Eigen::MatrixXd& dwell_variance, double parameters) {
+                        const Eigen::MatrixXd& dwell_variance, double parameters, double inflation) {
   ArmNoise noise;
+  noise.inflation = inflation;
   Index kinds = 0;
   double total = static_cast<double>(dwells.size());
   for (const MovingStretch& stretch : rows.stretches) {
@@ -108,7 +109,7 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
     noise.kinds.push_back(fit_kind(moving, members, rows.channels));
     const double repeats = repeated_cycles(rows, members);
     for (AutoregressiveModel& channel : noise.kinds.back().channels) {
-      channel.innovation_std *= std::sqrt(total / std::max(total - parameters, 1.0) * repeats);
+      channel.innovation_std *= std::sqrt(total / std::max(total - parameters, 1.0) * repeats * inflation);
     }
   }
   // The excess that makes the dwells' normalised squares average one, by bisection.

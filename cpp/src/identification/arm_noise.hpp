@@ -18,6 +18,7 @@ struct MotionNoise {
 
 struct ArmNoise {
   std::vector<MotionNoise> kinds;
+  double inflation = 1.0;        // of the kinds' variances, above what their residuals scatter by
   Eigen::VectorXd dwell_excess;  // (3) or (6) m/s^2 or rad/s: added to a dwell's own standard deviation, in squares
 };
 
@@ -28,9 +29,9 @@ using StretchResiduals = std::vector<Eigen::MatrixXd>;
 ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, double rate_std);
 
 // From residuals of the moving stretches and of the dwells (D, channels); `dwell_variance` (D, channels) is what the dwells'
-// own scatter and the encoders explain; parameters: how many were fitted.
+// own scatter and the encoders explain; parameters: how many were fitted; inflation of the stretches' variance, by their scores.
 ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
-                        const Eigen::MatrixXd& dwell_variance, double parameters);
+                        const Eigen::MatrixXd& dwell_variance, double parameters, double inflation);
 
 // Whitens a stretch in place: `columns` (M * channels, k), channel-major within (channel c: rows c M ... (c + 1) M - 1).
 void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns);

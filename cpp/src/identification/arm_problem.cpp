@@ -257,6 +257,19 @@ NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state
   return all;
 }
 
+double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance) {
+  const Index columns = problem.layout.columns;
+  double seen = 0.0;
+  double expected = 0.0;
+  for (std::size_t i = 0; i < problem.rows.stretches.size(); ++i) {
+    const Eigen::VectorXd gradient = parts[i].equations.gradient.head(columns);
+    const Eigen::MatrixXd leverage = covariance * parts[i].equations.information.topLeftCorner(columns, columns);
+    seen += gradient.dot(covariance * gradient);
+    expected += leverage.trace() - leverage.cwiseProduct(leverage.transpose()).sum();
+  }
+  return expected > 0.0 ? seen / expected : 1.0;
+}
+
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
   const std::size_t stretches = problem.rows.stretches.size();
   const Index channels = problem.rows.channels;

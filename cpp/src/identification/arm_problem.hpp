@@ -69,6 +69,10 @@ struct MarginalEquations {
 };
 MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts);
 
+// How much larger the stretches' scores (gradients at the estimate) are than the noise makes them: sum g^T C g over
+// sum tr C (H - H C H), with the estimate's covariance C (docs/method, eq. (M31)). One if noise and model hold.
+double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance);
+
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state);
 
 }  // namespace circlepoint

@@ -190,7 +190,7 @@ std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState&
     entry.end = std::max(entry.end, stretch.time[stretch.rows() - 1]);
     entry.samples += stretch.rows();
     entry.residual_rms += residuals_in.moving[i].leftCols<3>().squaredNorm();
-    entry.normalized_rms += residuals_in.whitened[i].leftCols<3>().squaredNorm();
+    entry.normalized_rms += problem.noise.inflation * residuals_in.whitened[i].leftCols<3>().squaredNorm();
     if (!rest) {
       ++entry.indispensable;
       continue;
@@ -198,7 +198,7 @@ std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState&
     const ArmResiduals held = residuals(alone, *rest);
     entry.held_out_samples += stretch.rows();
     entry.held_out_rms += held.moving[0].leftCols<3>().squaredNorm();
-    entry.held_out_normalized_rms += held.whitened[0].leftCols<3>().squaredNorm();
+    entry.held_out_normalized_rms += problem.noise.inflation * held.whitened[0].leftCols<3>().squaredNorm();
   }
   if (!problem.rows.dwells.empty()) {
     StretchResidual entry = describe("dwells");

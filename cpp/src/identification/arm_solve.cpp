@@ -91,7 +91,28 @@ class ArmCost final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(flat.size());
   }
   bool Evaluate(const double* const* parameters, double* residual, double** jacobians) const override {
-    const ArmState state = flat_.read(parameters[0]);
+    const Index columns = problem_.layout.columns;
+    const Eigen::Map<const Eigen::VectorXd> here(parameters[0], flat_.size());
+    // Ceres asks for residuals first, and for the derivatives at the same place once it has accepted the step.
+    if (evaluated_.size() == 0 || evaluated_ != here) {
+      evaluated_ = here;
+      evaluate(flat_.read(parameters[0]));
+    }
+    if (!usable_) {
+      return false;
+    }
+    Eigen::Map<Eigen::VectorXd>(residual, columns + 1) = residual_;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], columns + 1,
+                                                                                                 flat_.size());
+      jacobian.setZero();
+      jacobian.topLeftCorner(columns, columns) = root_;
+    }
+    return true;
+  }
+
+ private:
+  void evaluate(const ArmState& state) const {
     const Index columns = problem_.layout.columns;
     NormalEquations all = marginal(problem_, linearise_data(problem_, state)).equations;
     all += linearise_prior(problem_, state);
@@ -99,27 +120,23 @@ class ArmCost final : public ceres::CostFunction {
     all.information.diagonal() += 1e-14 * all.information.diagonal();
     all.information.diagonal().array() += 1e-12;
     const Eigen::LLT<Eigen::MatrixXd> factor(all.information);
-    if (factor.info() != Eigen::Success) {
-      return false;
+    usable_ = factor.info() == Eigen::Success;
+    if (!usable_) {
+      return;
     }
-    Eigen::Map<Eigen::VectorXd> r(residual, columns + 1);
-    r.head(columns) = factor.matrixL().solve(all.gradient);
-    r[columns] = std::sqrt(std::max(0.0, all.cost - r.head(columns).squaredNorm()));
-    if (!r.allFinite()) {
-      return false;
-    }
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], columns + 1,
-                                                                                                 flat_.size());
-      jacobian.setZero();
-      jacobian.topLeftCorner(columns, columns) = factor.matrixU();
-    }
-    return true;
+    residual_.resize(columns + 1);
+    residual_.head(columns) = factor.matrixL().solve(all.gradient);
+    residual_[columns] = std::sqrt(std::max(0.0, all.cost - residual_.head(columns).squaredNorm()));
+    root_ = factor.matrixU();
+    usable_ = residual_.allFinite();
   }
 
- private:
   const ArmProblem& problem_;
   const FlatState& flat_;
+  mutable Eigen::VectorXd evaluated_;  // where the rest was evaluated
+  mutable Eigen::VectorXd residual_;
+  mutable Eigen::MatrixXd root_;
+  mutable bool usable_ = false;
 };
 
 }  // namespace

@@ -14,9 +14,6 @@ namespace {
 constexpr Index functions = 11;
 constexpr double most_yield = 50.0;        // counts, of a joint that only yields
 constexpr double weakest_function = 1e-3;  // of the basis, relative
-// Where no joint changes its count in a whole test: of a range R < 1 the chance to show no change is 1 - R, so that a range of any
-// order of magnitude between 0.01 and 1 count beforehand is 0.2 counts rms then, and the deflection this.
-constexpr double quiet_std = 0.08;         // counts rms
 constexpr double negligible = 0.005;       // counts rms: not worth a parameter
 
 // phi of joint positions, velocities and accelerations, a row each.
@@ -220,9 +217,22 @@ void apply(ArmRows& rows, const HomeGroup& group, const JointFit& fit, Index joi
   }
 }
 
-}  // namespace
-
-namespace {
+// Counts rms that resting joints may deflect by without a change of count: of a range R < 1 the chance to show none is 1 - R, in
+// `pairs` of tests and joints (1 - R)^pairs, with a range of any order of magnitude between 0.01 and 1 count beforehand.
+double quiet_std(Index pairs) {
+  constexpr double smallest = 0.01;
+  constexpr double rms_of_range = 0.4;  // of a deflection that swings over the range
+  constexpr int steps = 400;
+  double weight = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double range = std::pow(smallest, (i + 0.5) / static_cast<double>(steps));
+    const double chance = std::pow(1.0 - range, static_cast<double>(pairs));
+    weight += chance;
+    squares += chance * range * range;
+  }
+  return rms_of_range * std::sqrt(squares / weight);
+}
 
 // Whether any joint at rest changes its count in a test.
 bool anything_yields(const TestMotion& motion, const ArmRows& rows, const Recording& recording, const Eigen::VectorXd& resolution) {
@@ -242,14 +252,21 @@ bool anything_yields(const TestMotion& motion, const ArmRows& rows, const Record
 void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation& segmentation,
                    const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution) {
   std::vector<HomeGroup> groups = find_groups(rows, segmentation, resolution);
-  for (HomeGroup& group : groups) {
-    for (TestMotion& motion : group.tests) {
-      prepare(motion, group.home, rows, spans, resolution);
+  std::vector<std::vector<bool>> yields(groups.size());  // a flag a test
+  Index tests = 0;
+  bool none_yields = true;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (TestMotion& motion : groups[g].tests) {
+      prepare(motion, groups[g].home, rows, spans, resolution);
+      yields[g].push_back(anything_yields(motion, rows, recording, resolution));
+      none_yields = none_yields && !yields[g].back();
+      ++tests;
     }
-    std::vector<bool> vigorous;
-    for (const TestMotion& motion : group.tests) {
-      vigorous.push_back(anything_yields(motion, rows, recording, resolution));
-    }
+  }
+  // Joints that yield in one test say nothing of how little they do in another; joints that never do say it all together.
+  const double quiet = quiet_std(none_yields ? tests * (recording.joints() - 1) : 1);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    HomeGroup& group = groups[g];
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const double count = resolution[joint];
       if (count <= 0.0) {
@@ -263,7 +280,7 @@ void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation
       std::nth_element(at_home.begin(), at_home.begin() + static_cast<Index>(at_home.size() / 2), at_home.end());
       group.home[joint] = at_home[at_home.size() / 2];
       std::vector<CountRows> counts(group.tests.size());
-      std::vector<std::size_t> tests;
+      std::vector<std::size_t> holding;
       for (std::size_t t = 0; t < group.tests.size(); ++t) {
         const TestMotion& motion = group.tests[t];
         if (motion.joint == joint) {
@@ -285,14 +302,14 @@ void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation
           read_counts(counts[t], phi, encoder(samples.begin, samples.size()), samples.size());
         }
         count_repeats(counts[t]);
-        if (!vigorous[t]) {
-          counts[t].within_std = quiet_std;
+        if (!yields[g][t]) {
+          counts[t].within_std = quiet;
         }
         if (reach < most_yield) {
-          tests.push_back(t);
+          holding.push_back(t);
         }
       }
-      const JointFit fit = fit_and_judge(counts, tests);
+      const JointFit fit = fit_and_judge(counts, holding);
       if (!fit.tests.empty()) {
         apply(rows, group, fit, joint, count, recording.sample_rate);
       }

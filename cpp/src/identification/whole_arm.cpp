@@ -84,7 +84,10 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const Index joints = recording.joints();
   WholeArmCalibration result;
   const JointCalibrationOptions single = joint_options(options);
-  result.joints = calibrate_joints(recording, segmentation, single);
+  JointCalibrationOptions quick = single;  // what is good enough to start from
+  quick.use_resting_encoders = false;
+  quick.max_passes = 4;
+  result.joints = calibrate_joints(recording, segmentation, quick);
   const Eigen::VectorXd resolution = encoder_resolution(recording, single);
   std::vector<bool> moves;
   std::vector<bool> known;
@@ -114,6 +117,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const ArmStart start = find_start(problem, state, known, moves, options.random_starts, options.seed);
   result.starts_tried = start.tried;
   if (!start.found) {
+    result.joints = calibrate_joints(recording, segmentation, single);
     for (JointEstimate& estimate : result.joints.joints) {
       if (!estimate.axis) {
         estimate.reason += "; nor does any of " + std::to_string(start.tried) + " starts explain the motions of several joints twice";
@@ -154,13 +158,17 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
         now = residuals(problem, state);
       }
     }
-    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns));
+    // The first pass's noise is a guess, and nothing follows from its scores.
+    const double inflation = pass > 0 ? std::max(1.0, problem.noise.inflation * score_ratio(problem, parts, covariance)) : 1.0;
+    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance,
+                                   static_cast<double>(problem.layout.columns), inflation);
   }
   const NormalEquations prior = linearise_prior(problem, state);
+  result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();
   result.rows = now.dwells_normalized.size();
   for (const Eigen::MatrixXd& whitened : now.whitened) {
-    squares += whitened.squaredNorm();
+    squares += problem.noise.inflation * whitened.squaredNorm();
     result.rows += whitened.size();
   }
   result.normalized_rms = std::sqrt(squares / static_cast<double>(result.rows));

@@ -20,6 +20,7 @@ _labels = {
     "normalised_residual_rms": "normalised residual rms",
     "static_noise_std": "noise of dwell means, m/s²",
     "residual_rms": "residual rms, m/s²",
+    "noise_inflation": "noise variance inflated by",
     "parameters": "parameters asked for",
     "condition_number": "condition number",
 }
@@ -51,7 +52,7 @@ def render_page(calibration: CalibrationResult, truth: Mapping[str, Any] | None,
         _axes_section(document, truth, drawings),
         _dh_section(document),
         _recording_section(calibration, drawings),
-        _tests_section(drawings),
+        _tests_section(document, drawings),
         _sensor_section(document, truth),
         _reading_section(drawings, truth),
     ]
@@ -173,10 +174,11 @@ def _recording_section(calibration: CalibrationResult, drawings: Drawings) -> st
     return section("recording", "What was recorded", parts)
 
 
-def _tests_section(drawings: Drawings) -> str:
-    if not drawings.tests:
+def _tests_section(document: Document, drawings: Drawings) -> str:
+    held_out = tables.hold_out_table(document)
+    if not drawings.tests and not held_out:
         return section("tests", "Measured against modelled", [paragraph("No test was fitted.")])
-    parts = []
+    parts = [held_out]
     for index, test in enumerate(drawings.tests):
         label = escaped(f"{test.title}: measured against modelled specific force, with residuals")
         facts = f"residual {1e3 * test.fit.residual_rms:.1f} mm/s² rms"
@@ -213,6 +215,10 @@ def _reading_section(drawings: Drawings, truth: Mapping[str, Any] | None) -> str
         ("±", "One standard deviation, rounded to one or two digits; the value ends at the same digit."),
         ("free", "A choice, not an estimate: where along and around its first axis the base frame sits."),
         ("Normalised residual", "Its rms is 1 where the assumed noise explains what the model leaves."),
+        (
+            "On data not used",
+            "Each stretch of motion and each dwell as predicted by an estimate without it: what the model is worth.",
+        ),
         ("Residual", "Measured minus modelled. It should look like noise; a wave in it is something the model lacks."),
     ]
     if drawings.scene is not None:

@@ -121,6 +121,34 @@ def test_table(calibration: CalibrationResult) -> str:
     return table(columns, "Single-joint tests found in the log")
 
 
+def hold_out_table(document: Document) -> str:
+    """Return residuals by kind of motion, also on data the estimate did not see; empty where the result has none."""
+    entries: Sequence[Document] = document.get("hold_out") or []
+    if not entries:
+        return ""
+    names = {joint["name"]: index for index, joint in enumerate(document["joints"])}
+
+    def listed(key: str, scale: float) -> list[str]:
+        values = [number(entry.get(key)) for entry in entries]
+        return [significant(None if value is None else scale * value, 3) for value in values]
+
+    titles = [
+        _joint_name(names[entry["name"]], document["joints"][names[entry["name"]]])
+        if entry["name"] in names
+        else escaped(entry["name"])
+        for entry in entries
+    ]
+    columns = [
+        Column("motion", titles, "name"),
+        Column("rows", [escaped(entry["samples"]) for entry in entries]),
+        Column("mm/s²", numbers(listed("residual_rms", 1e3)), group="residual"),
+        Column("normalised", numbers(listed("normalised_rms", 1.0)), group="residual"),
+        Column("mm/s²", numbers(listed("held_out_rms", 1e3)), group="on data not used"),
+        Column("normalised", numbers(listed("held_out_normalised_rms", 1.0)), group="on data not used"),
+    ]
+    return table(columns, "Residuals, and those of estimates that did not see the stretch or dwell in question")
+
+
 def sensor_table(document: Document, truth: Mapping[str, Any] | None) -> str:
     """Return the table of the sensor's parameters."""
     sensor = document.get("sensor") or {}

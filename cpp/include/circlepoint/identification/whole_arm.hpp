@@ -8,7 +8,8 @@
 //
 // Readings and encoders pass through the same zero-phase low-pass and are then thinned out. The residuals' noise is found in the
 // residuals: per kind of motion, the channels are rotated to uncorrelated ones and each is whitened by an autoregressive
-// model, so vibration and the encoders' differentiated counts weigh what they should, and the covariance is meant. Dwells weigh by the
+// model, so vibration and the encoders' differentiated counts weigh what they should. Where stretches pull at the estimate
+// harder than that noise says, their variance is inflated until they do not, and the covariance is meant. Dwells weigh by the
 // scatter of their samples, the encoders' counts and what their residuals show. Knocks are cut out and counted.
 //
 // Start values come from the single-joint tests where there are some, and from many random starts otherwise. What the data do
@@ -106,7 +107,8 @@ struct WholeArmCalibration {
   std::vector<WeakCombination> weak;
   std::vector<StretchResidual> stretches;
   double cutoff = 0.0;          ///< Hz
-  double normalized_rms = 0.0;  ///< of all whitened residuals
+  double normalized_rms = 0.0;  ///< of all whitened residuals, before the inflation
+  double noise_inflation = 1.0; ///< of the motions' noise variance, so that it covers what stretches disagree by (M31)
   Index samples = 0;            ///< used, before thinning
   Index rows = 0;               ///< of the least-squares problem
   Index outliers = 0;           ///< rows left out as knocks
