@@ -73,9 +73,12 @@ lint: install .venv/dev.stamp
 accuracy: install
 	$(BIN)/python bench/python/paper_noise.py
 
-# Efficiency against the Cramer-Rao bound and honesty of the whole-arm estimate, 200 seeds a case (some 40 minutes).
+# The whole-arm estimate: efficiency against the Cramer-Rao bound and honesty, SEEDS a case (200: some 30 minutes), then what it
+# makes of the recordings in the folder CIRCLEPOINT_SHARED_DATA, where there is one, and its time by samples.
+SEEDS ?= 200
 whole-arm-accuracy: install
-	$(BIN)/python bench/python/whole_arm_accuracy.py 200
+	$(BIN)/python bench/python/whole_arm_accuracy.py $(SEEDS)
+	$(BIN)/python bench/python/whole_arm_recordings.py $(CIRCLEPOINT_SHARED_DATA)
 
 # Ratios to SciPy and NumPy and the distance to the machine's limits, in one process; then the time of each stage.
 bench: install .venv/dev.stamp

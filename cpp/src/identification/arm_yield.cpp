@@ -217,34 +217,41 @@ void apply(ArmRows& rows, const HomeGroup& group, const JointFit& fit, Index joi
   }
 }
 
-// Counts rms that resting joints may deflect by without a change of count: of a range R < 1 the chance to show none is 1 - R, in
-// `pairs` of tests and joints (1 - R)^pairs, with a range of any order of magnitude between 0.01 and 1 count beforehand.
-double quiet_std(Index pairs) {
-  constexpr double smallest = 0.01;
-  constexpr double rms_of_range = 0.4;  // of a deflection that swings over the range
-  constexpr int steps = 400;
-  double weight = 0.0;
-  double squares = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    const double range = std::pow(smallest, (i + 0.5) / static_cast<double>(steps));
-    const double chance = std::pow(1.0 - range, static_cast<double>(pairs));
-    weight += chance;
-    squares += chance * range * range;
-  }
-  return rms_of_range * std::sqrt(squares / weight);
-}
-
-// Whether any joint at rest changes its count in a test.
-bool anything_yields(const TestMotion& motion, const ArmRows& rows, const Recording& recording, const Eigen::VectorXd& resolution) {
-  return std::any_of(motion.stretches.begin(), motion.stretches.end(), [&](std::size_t s) {
+// How many joints at rest change their count in a test.
+Index yielding_joints(const TestMotion& motion, const ArmRows& rows, const Recording& recording, const Eigen::VectorXd& resolution) {
+  Eigen::Array<bool, Eigen::Dynamic, 1> changes = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(resolution.size(), false);
+  for (const std::size_t s : motion.stretches) {
     const MovingStretch& stretch = rows.stretches[s];
     const auto encoders =
         recording.joint_positions.middleRows(first_sample(stretch), end_sample(stretch) - first_sample(stretch));
     const Eigen::ArrayXd range = (encoders.colwise().maxCoeff() - encoders.colwise().minCoeff()).transpose();
-    Eigen::Array<bool, Eigen::Dynamic, 1> changes = range > 0.5 * resolution.array();
-    changes[motion.joint] = false;
-    return changes.any();
-  });
+    changes = changes || range > 0.5 * resolution.array();
+  }
+  changes[motion.joint] = false;
+  return changes.count();
+}
+
+// Counts rms that a joint at rest deflects by in a test in which none changes its count. A range of R < 1 counts shows no change
+// with the chance 1 - R. Ranges are taken to be exponentially distributed; their mean, of any order of magnitude beforehand, follows
+// from how many of all pairs of a test and a joint at rest show a change.
+double quiet_std(Index changed, Index pairs) {
+  constexpr double smallest_mean = 0.01;  // counts
+  constexpr double largest_mean = 3.0;
+  constexpr double rms_of_range = 0.4;    // of a deflection that swings over the range
+  constexpr Index steps = 200;
+  const Eigen::ArrayXd range = Eigen::ArrayXd::LinSpaced(steps, 0.5, static_cast<double>(steps) - 0.5) / static_cast<double>(steps);
+  double weight = 0.0;
+  double squares = 0.0;
+  for (Index i = 0; i < steps; ++i) {
+    const double mean = smallest_mean * std::pow(largest_mean / smallest_mean, (static_cast<double>(i) + 0.5) / static_cast<double>(steps));
+    const Eigen::ArrayXd quiet = (-range / mean).exp() / mean * (1.0 - range) / static_cast<double>(steps);
+    const double chance = std::clamp(quiet.sum(), 1e-12, 1.0 - 1e-12);
+    const double log_likelihood = static_cast<double>(changed) * std::log1p(-chance) + static_cast<double>(pairs - changed) * std::log(chance);
+    const double likelihood = std::exp(log_likelihood);
+    weight += likelihood;
+    squares += likelihood * (quiet * range.square()).sum() / chance;
+  }
+  return rms_of_range * std::sqrt(squares / weight);
 }
 
 }  // namespace
@@ -253,18 +260,18 @@ void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation
                    const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution) {
   std::vector<HomeGroup> groups = find_groups(rows, segmentation, resolution);
   std::vector<std::vector<bool>> yields(groups.size());  // a flag a test
-  Index tests = 0;
-  bool none_yields = true;
+  Index pairs = 0;
+  Index changed = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (TestMotion& motion : groups[g].tests) {
       prepare(motion, groups[g].home, rows, spans, resolution);
-      yields[g].push_back(anything_yields(motion, rows, recording, resolution));
-      none_yields = none_yields && !yields[g].back();
-      ++tests;
+      const Index here = yielding_joints(motion, rows, recording, resolution);
+      yields[g].push_back(here > 0);
+      changed += here;
+      pairs += recording.joints() - 1;
     }
   }
-  // Joints that yield in one test say nothing of how little they do in another; joints that never do say it all together.
-  const double quiet = quiet_std(none_yields ? tests * (recording.joints() - 1) : 1);
+  const double quiet = quiet_std(changed, pairs);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     HomeGroup& group = groups[g];
     for (Index joint = 0; joint < recording.joints(); ++joint) {

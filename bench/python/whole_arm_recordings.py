@@ -1,0 +1,123 @@
+"""What the whole-arm estimate makes of recordings nobody here made: python bench/python/whole_arm_recordings.py FOLDER.
+
+FOLDER holds one folder a recording: log.csv, or joints.csv and sensor.csv, arm.yaml and, where it is known, truth.json.
+Against a truth: the largest error of an axis and of a line, the end-point's over 200 poses and what was predicted. Else
+the lengths that are not zero nominally, beside the nominal ones, which are not used; and what is not given, and why. At
+the end the time the estimate takes for a simulated arm of seven joints, by samples.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import circlepoint as cp
+from circlepoint.arm import Arm, load_arm
+from circlepoint.calibration import Calibration, calibrate
+from circlepoint.demo import ARM_FILE, built_arm
+from circlepoint.recording_io import read_recording
+from circlepoint.sensor_presets import load_sensor
+from circlepoint.truth import truth_chain
+
+SENSORS = {"qa700": "qa700", "mems": "mems", "ideal": "ideal", "coarse": "qa700"}  # by the last word of a folder's name
+LOGS = (("log.csv",), ("joints.csv", "sensor.csv"))
+
+
+def against_truth(result: Calibration, folder: Path) -> None:
+    """Print the errors."""
+    truth = cp.rebase(
+        truth_chain(json.loads((folder / "truth.json").read_text())), result.joints.reference_configuration
+    )
+    chain = result.joints.chain()
+    errors = np.array(
+        [cp.local_coordinates(mine.line, theirs.line) for mine, theirs in zip(chain.axes, truth.axes, strict=True)]
+    )
+    poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (200, len(errors))) + chain.reference_configuration
+    difference = (cp.forward_kinematics(chain, poses) - cp.forward_kinematics(truth, poses))[:, :3, 3]
+    predicted = cp.end_point_std(chain, result.joints.covariance, poses)
+    squares = errors.ravel() @ np.linalg.solve(result.joints.covariance, errors.ravel()) / errors.size
+    print(
+        f"  axes within {1e3 * np.linalg.norm(errors[:, :2], axis=1).max():.3f} mrad, lines within "
+        f"{1e3 * np.linalg.norm(errors[:, 2:], axis=1).max():.3f} mm, end-point "
+        f"{1e3 * np.sqrt(np.mean(np.sum(difference**2, axis=1))):.3f} mm rms (predicted "
+        f"{1e3 * np.sqrt(np.mean(predicted**2)):.3f}); normalised squares {squares:.2f}"
+    )
+
+
+def against_nominal(result: Calibration, arm: Arm) -> None:
+    """Print lengths beside the nominal ones, and reasons."""
+    rows = (result.document["dh"] or {}).get("rows") or []
+    for joint, row, nominal in zip(arm.joints, rows, arm.dh.rows if arm.dh else (), strict=False):
+        for key in ("a", "d"):
+            std = row["std"].get(key)
+            if getattr(nominal, key) and isinstance(std, float):
+                estimate = f"{joint.name} {key} {1e3 * row[key]:8.1f} ± {1e3 * std:.1f} mm"
+                print(f"  {estimate}   nominal {1e3 * getattr(nominal, key):.2f}")
+    for joint in result.document["joints"]:
+        if joint.get("reason"):
+            print(f"  {joint['name']}: {joint['reason']}")
+
+
+def recording(folder: Path) -> None:
+    """Print one recording's result."""
+    names = next((names for names in LOGS if all((folder / name).is_file() for name in names)), None)
+    if names is None:
+        print(f"{folder.name}: no {' nor '.join(' + '.join(log) for log in LOGS)}")
+        return
+    arm = load_arm(folder / "arm.yaml")
+    preset = SENSORS.get(folder.name.rsplit("-", 1)[-1])
+    print(f"{folder.name}: sensor {preset or 'not specified'}")
+    try:
+        log = read_recording([folder / name for name in names], arm)
+        result = calibrate(log.recording, arm, sensor=None if preset is None else load_sensor(preset))
+    except cp.Error as error:
+        print(f"  {error}")
+        return
+    if (folder / "truth.json").is_file() and result.chain is not None:
+        against_truth(result, folder)
+    else:
+        against_nominal(result, arm)
+
+
+def growth() -> None:
+    """Print the time of the estimate by samples: 7 joints, all moving, at 250 Hz."""
+    start = np.full(7, -1.2)
+    chain = built_arm(load_arm(ARM_FILE), start, 1)
+    up = cp.STANDARD_GRAVITY * np.array([0.36, 0.48, 0.80])
+    for samples in (100_000, 200_000, 400_000, 800_000, 1_600_000):
+        motion = [cp.MultiJointMotion(duration=samples / 250.0, amplitude=np.full(7, 1.2), seed=7)]
+        made = cp.simulate(
+            chain,
+            up,
+            cp.draw_accelerometer(load_sensor("qa700"), 0),
+            cp.joint_trajectory(start, motion, 250.0, 0.6),
+            cp.SimulationOptions(noise_std=0.01, seed=0),
+        )
+        options = cp.WholeArmOptions()
+        options.sensor = load_sensor("qa700")
+        begin = time.perf_counter()
+        cp.calibrate_whole_arm(made, cp.segment(made), options)
+        seconds = time.perf_counter() - begin
+        print(
+            f"  {made.samples:>9,} samples {seconds:6.2f} s, {1e6 * seconds / made.samples:.2f} µs a sample", flush=True
+        )
+
+
+def main() -> int:
+    """Print all recordings of a folder, then the growth."""
+    if len(sys.argv) > 1:
+        for folder in sorted(path.parent for path in Path(sys.argv[1]).glob("*/arm.yaml")):
+            recording(folder)
+    else:
+        print("give a folder of recordings to see what the estimate makes of them")
+    print("time by samples, 7 joints")
+    growth()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
