@@ -53,18 +53,24 @@ AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segme
 }
 
 void whiten(const AutoregressiveModel& model, Eigen::Ref<Eigen::MatrixXd> columns) {
-  const Index order = model.order();
-  // From the last sample to the first, so that each still finds its predecessors as they were.
+  const Index head = std::min(model.order(), columns.rows());
+  const Index steady = columns.rows() - head;
+  Eigen::VectorXd rest(steady);
   for (Index column = 0; column < columns.cols(); ++column) {
     auto x = columns.col(column);
-    for (Index t = x.size(); t-- > 0;) {
-      const Index k = std::min(t, order);
-      double prediction = 0.0;
-      for (Index lag = 1; lag <= k; ++lag) {
-        prediction += model.coefficients(k, lag - 1) * x[t - lag];
-      }
-      x[t] = (x[t] - prediction) / model.innovation_std[k];
+    rest = x.tail(steady);
+    for (Index lag = 1; lag <= head; ++lag) {
+      rest -= model.coefficients(head, lag - 1) * x.segment(head - lag, steady);
     }
+    // The first samples by the predictors of lower order, from the last on, so that each still finds its predecessors as they were.
+    for (Index t = head; t-- > 0;) {
+      double prediction = 0.0;
+      for (Index lag = 1; lag <= t; ++lag) {
+        prediction += model.coefficients(t, lag - 1) * x[t - lag];
+      }
+      x[t] = (x[t] - prediction) / model.innovation_std[t];
+    }
+    x.tail(steady) = rest / model.innovation_std[head];
   }
 }
 

@@ -40,6 +40,12 @@ ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
   rate_by_rotation_.resize(links, Eigen::Matrix3d::Zero());
   place_.resize(links, Eigen::Vector3d::Zero());
   place_rate_.resize(links, Eigen::Vector3d::Zero());
+  force_read_.resize(links, Eigen::Matrix3d::Zero());
+  rate_read_.resize(links, Eigen::Matrix3d::Zero());
+  for (const ScrewAxis& axis : state_.axes) {
+    twists_.emplace_back(axis.twist());
+    line_twists_.push_back(line_twists(axis));
+  }
 }
 
 void ArmPredictor::delay(const JointInstant& instant) {
@@ -126,17 +132,22 @@ void ArmPredictor::backward() {
         to_sensor_[k] = turn_[k] * to_sensor_[k + 1];
       }
     }
+    // A_k of the header, as the sensor reads it; products of skew-symmetric matrices written out as outer products.
     const Eigen::Vector3d& w = rate_[k];
+    const Eigen::Vector3d& alpha = angular_acceleration_[k];
     const Eigen::Vector3d& p = place_[k];
+    const Eigen::Vector3d& p_dot = place_rate_[k];
     const Eigen::Matrix3d w_skew = skew(w);
-    const Eigen::Matrix3d alpha_skew = skew(angular_acceleration_[k]);
-    const Eigen::Matrix3d p_skew = skew(p);
-    const Eigen::Matrix3d back = to_sensor_[k].transpose();
-    by_twist_[k].leftCols<3>() =
-        back * (skew(force_[k]) - p_skew * alpha_skew -
-                (skew(w.cross(p)) + w_skew * p_skew + 2.0 * skew(place_rate_[k])) * w_skew);
-    by_twist_[k].rightCols<3>() = back * (alpha_skew + w_skew * w_skew);
-    rate_by_rotation_[k] = back * w_skew;
+    force_read_[k] = by_force_ * to_sensor_[k].transpose();
+    rate_read_[k] = by_rate_ * to_sensor_[k].transpose();
+    Eigen::Matrix3d by_rotation = skew(force_[k]) + w.dot(p) * w_skew - alpha * p.transpose() -
+                                  w * (w.cross(p) + 2.0 * p_dot).transpose();
+    by_rotation.diagonal().array() += p.dot(alpha) + 2.0 * p_dot.dot(w);
+    Eigen::Matrix3d by_shift = skew(alpha) + w * w.transpose();
+    by_shift.diagonal().array() -= w.squaredNorm();
+    by_twist_[k].leftCols<3>() = force_read_[k] * by_rotation + rate_read_[k] * w_skew;
+    by_twist_[k].rightCols<3>() = force_read_[k] * by_shift;
+    rate_by_rotation_[k] = to_sensor_[k].transpose() * w_skew;
   }
 }
 
@@ -147,10 +158,9 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant) {
   return sense();
 }
 
-Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
   jacobian.setZero();
   forward(instant);
-  backward();
   const AccelerometerModel& sensor = state_.sensor;
   const Eigen::Vector3d& w = rate_.back();
   const Eigen::Vector3d centripetal = w.squaredNorm() - w.array().square();
@@ -162,14 +172,13 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
   // The centripetal terms' derivative by the sensor's angular velocity.
   by_rate_ = -2.0 * by_force_ * sensor.percussion_distance.asDiagonal() *
              (Eigen::Vector3d::Ones() * w.transpose() - Eigen::Matrix3d(w.asDiagonal()));
+  backward();
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     const Index column = layout_.lines[i];
     if (column < 0) {
       continue;
     }
-    Eigen::Matrix<double, 3, 6> by_twist = by_force_ * (by_twist_[i] - by_twist_[i + 1]);
-    by_twist.leftCols<3>() += by_rate_ * (rate_by_rotation_[i] - rate_by_rotation_[i + 1]);
-    const Eigen::Matrix<double, 3, 4> by_line = by_twist * line_twists(state_.axes[i]);
+    const Eigen::Matrix<double, 3, 4> by_line = (by_twist_[i] - by_twist_[i + 1]) * line_twists_[i];
     const Index count = line_columns(state_.axes[i]);
     jacobian.middleCols(column, count) = by_line.leftCols(count);
   }
@@ -198,7 +207,7 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
 }
 
 // All of them act through the joints' own motion.
-void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian) const {
   if (layout_.clock_offset < 0 && layout_.encoder_gain < 0 && layout_.eccentricity < 0) {
     return;
   }
@@ -239,14 +248,14 @@ Eigen::Vector3d ArmPredictor::angular_rate() const {
   return state_.gyroscope_matrix * rate_.back() + state_.gyroscope_bias;
 }
 
-Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian) {
+Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
   jacobian.setZero();
   const Eigen::Vector3d& w = rate_.back();
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     if (layout_.lines[i] >= 0) {
       jacobian.middleCols<2>(layout_.lines[i]) = state_.gyroscope_matrix *
                                                  (rate_by_rotation_[i] - rate_by_rotation_[i + 1]) *
-                                                 line_twists(state_.axes[i]).topLeftCorner<3, 2>();
+                                                 line_twists_[i].topLeftCorner<3, 2>();
     }
   }
   if (layout_.clock_offset >= 0) {
@@ -258,7 +267,7 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian)
   }
   for (Index j = 0; j < joints_ && (layout_.encoder_gain >= 0 || layout_.eccentricity >= 0); ++j) {
     const auto k = static_cast<std::size_t>(j) + 1;
-    const Eigen::Vector3d turn = state_.axes[k - 1].twist().head<3>();
+    const Eigen::Vector3d turn = twists_[k - 1].head<3>();
     const Eigen::Vector3d by_position = state_.gyroscope_matrix * rate_by_rotation_[k] * turn;
     const Eigen::Vector3d by_velocity = state_.gyroscope_matrix * to_sensor_[k].transpose() * turn;
     const double q = stamped_.position[j];
@@ -287,17 +296,15 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian)
 // Everything beyond the joint is displaced by eta = twist q: the point p of the sensor by u = v + z x p, whose own motion in the
 // displaced link adds u'' + 2 w x u' with u' = v' + z' x p + z x p'.
 ByJoint ArmPredictor::by_joint() const {
-  ByJoint by{Eigen::MatrixXd(3, joints_), Eigen::MatrixXd(3, joints_), Eigen::MatrixXd(3, joints_)};
+  ByJoint by{Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_)};
   for (Index j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j) + 1;
-    const Eigen::Matrix<double, 6, 1> twist = state_.axes[k - 1].twist();
+    const Eigen::Matrix<double, 6, 1>& twist = twists_[k - 1];
     const Eigen::Vector3d turn = twist.head<3>();
     const Eigen::Vector3d shift = twist.tail<3>() + turn.cross(place_[k]);
-    const Eigen::Matrix3d back = by_force_ * to_sensor_[k].transpose();
-    by.position.col(j) = by_force_ * by_twist_[k] * twist + by_rate_ * rate_by_rotation_[k] * turn;
-    by.velocity.col(j) =
-        2.0 * back * (rate_[k].cross(shift) + turn.cross(place_rate_[k])) + by_rate_ * to_sensor_[k].transpose() * turn;
-    by.acceleration.col(j) = back * shift;
+    by.position.col(j) = by_twist_[k] * twist;
+    by.velocity.col(j) = force_read_[k] * (2.0 * (rate_[k].cross(shift) + turn.cross(place_rate_[k]))) + rate_read_[k] * turn;
+    by.acceleration.col(j) = force_read_[k] * shift;
   }
   return by;
 }

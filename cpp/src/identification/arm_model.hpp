@@ -26,9 +26,9 @@ struct JointInstant {
 
 // d reading / d q, d q' and d q'': (3, n) each.
 struct ByJoint {
-  Eigen::MatrixXd position;
-  Eigen::MatrixXd velocity;
-  Eigen::MatrixXd acceleration;
+  Eigen::Matrix3Xd position;
+  Eigen::Matrix3Xd velocity;
+  Eigen::Matrix3Xd acceleration;
 };
 
 // Evaluates one instant at a time; keeps its workspace.
@@ -39,11 +39,11 @@ class ArmPredictor {
   // Accelerometer reading, m/s^2.
   Eigen::Vector3d reading(const JointInstant& instant);
   // The same with its derivatives: jacobian (3, columns).
-  Eigen::Vector3d reading(const JointInstant& instant, Eigen::Ref<Eigen::MatrixXd> jacobian);
+  Eigen::Vector3d reading(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
   // Gyroscope reading of the instant evaluated last, rad/s.
   [[nodiscard]] Eigen::Vector3d angular_rate() const;
   // The same with its derivatives, after a call with derivatives of the same instant.
-  Eigen::Vector3d angular_rate(Eigen::Ref<Eigen::MatrixXd> jacobian);
+  Eigen::Vector3d angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian);
   // By the joints' own motion, at the instant evaluated last with derivatives.
   [[nodiscard]] ByJoint by_joint() const;
 
@@ -53,7 +53,7 @@ class ArmPredictor {
   void delay(const JointInstant& instant);
   void correct_encoders();
   [[nodiscard]] Eigen::Vector3d sense() const;
-  void by_clocks_and_encoders(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
+  void by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian) const;
 
   ArmState state_;
   const ArmLayout& layout_;
@@ -63,12 +63,16 @@ class ArmPredictor {
   std::vector<Eigen::Vector3d> angular_acceleration_;
   std::vector<Eigen::Vector3d> force_;            // a of each link, 0..n
   std::vector<Eigen::Matrix3d> to_sensor_;        // R_k_sensor
-  std::vector<Eigen::Matrix<double, 3, 6>> by_twist_;      // A_k
+  std::vector<Eigen::Matrix<double, 3, 6>> by_twist_;      // d reading / d eta
   std::vector<Eigen::Matrix3d> rate_by_rotation_;          // d w_sensor / d eta_w
   std::vector<Eigen::Vector3d> place_;            // p of the sensor in each link
   std::vector<Eigen::Vector3d> place_rate_;
   JointInstant stamped_;  // by the encoders, delayed to the sensor's clock
   JointInstant now_;      // and with the encoders' errors undone
+  std::vector<Eigen::Matrix<double, 6, 1>> twists_;        // (n) of the joints
+  std::vector<Eigen::Matrix<double, 6, 4>> line_twists_;   // (n) of the lines' local coordinates
+  std::vector<Eigen::Matrix3d> force_read_;                // d reading / d specific force in link k
+  std::vector<Eigen::Matrix3d> rate_read_;                 // d reading / d angular velocity in link k
   Eigen::Matrix3d by_force_ = Eigen::Matrix3d::Identity();  // d reading / d specific force at the channels
   Eigen::Matrix3d by_rate_ = Eigen::Matrix3d::Zero();       // d reading / d angular velocity of the sensor
 };

@@ -54,7 +54,7 @@ Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predicto
   const auto terms = static_cast<Index>(stretch.offsets.size());
   const Index last = columns + terms;
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows * problem.rows.channels, last + 1);
-  Eigen::MatrixXd jacobian(3, columns);
+  Eigen::Matrix3Xd jacobian(3, columns);
   JointInstant instant;
   Eigen::MatrixXd by_offset(3, terms);
   for (Index i = 0; i < rows; ++i) {
@@ -92,11 +92,11 @@ DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, con
   DwellSystem system{Eigen::MatrixXd::Zero(channels, last + 1), Eigen::MatrixXd(dwell.variance.asDiagonal())};
   JointInstant instant;
   set_instant(dwell, problem.rows.middle, problem, instant);
-  Eigen::MatrixXd jacobian(3, columns);
+  Eigen::Matrix3Xd jacobian(3, columns);
   const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
   system.rows.topLeftCorner(3, columns) = jacobian;
   system.rows.col(last).head<3>() = reading - dwell.reading.head<3>();
-  const Eigen::MatrixXd by_position = predictor.by_joint().position;
+  const Eigen::Matrix3Xd by_position = predictor.by_joint().position;
   for (Index k = 0; k < terms; ++k) {
     system.rows.col(columns + k).head<3>() = by_position.col(dwell.offsets[static_cast<std::size_t>(k)].joint) * dwell.shape[k];
   }

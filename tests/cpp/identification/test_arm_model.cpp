@@ -83,9 +83,9 @@ TEST(ArmModel, derivatives_in_closed_form_are_those_of_finite_differences) {
     const ArmCase arm = random_case(seed);
     const Eigen::MatrixXd expected = differences(arm);
     ArmPredictor predictor(arm.state, arm.layout);
-    Eigen::MatrixXd jacobian(3, arm.layout.columns);
+    Eigen::Matrix3Xd jacobian(3, arm.layout.columns);
     predictor.reading(arm.instant, jacobian);
-    Eigen::MatrixXd rate(3, arm.layout.columns);
+    Eigen::Matrix3Xd rate(3, arm.layout.columns);
     predictor.angular_rate(rate);
     const std::vector<std::string> names = parameter_names(arm.state, arm.layout);
     for (Index k = 0; k < arm.layout.columns; ++k) {
@@ -105,7 +105,7 @@ TEST(ArmModel, derivatives_by_the_joints_motion_are_those_of_finite_differences)
     arm.state.clock_offset = 0.0;
     arm.state.clock_rate = 1.0;
     ArmPredictor predictor(arm.state, arm.layout);
-    Eigen::MatrixXd jacobian(3, arm.layout.columns);
+    Eigen::Matrix3Xd jacobian(3, arm.layout.columns);
     predictor.reading(arm.instant, jacobian);
     const ByJoint by = predictor.by_joint();
     const auto along = [&](Eigen::VectorXd JointInstant::*motion, Index joint) -> Eigen::Vector3d {
