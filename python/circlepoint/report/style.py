@@ -87,7 +87,7 @@ def figure_style() -> Iterator[None]:
         yield
 
 
-def shortened(name: str, longest: int = 16) -> str:
+def shortened(name: str, longest: int = 24) -> str:
     """Return a name that fits a drawing: its beginning and its end, which tells joints apart."""
     if len(name) <= longest:
         return name
@@ -95,7 +95,7 @@ def shortened(name: str, longest: int = 16) -> str:
     return f"{name[: longest - 1 - tail]}\N{HORIZONTAL ELLIPSIS}{name[-tail:]}"
 
 
-def plain(name: str, longest: int = 16) -> str:
+def plain(name: str, longest: int = 24) -> str:
     """Return a short name as matplotlib can show it: nothing in it is read as mathematics."""
     return "".join(c if c.isprintable() else " " for c in shortened(name, longest)).replace("$", r"\$")
 
