@@ -45,6 +45,10 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
   }
   const Index motion = single_motion(segmentation, moving);
   const Index pieces = (available + longest - 1) / longest;
+  std::vector<std::size_t> smoothing;  // by joint
+  for (Index joint = 0; joint < recording.joints(); ++joint) {
+    smoothing.push_back(choose_smoothing(span, moving, joint, resolution));
+  }
   for (Index piece = 0; piece < pieces; ++piece) {
     const Index first = available * piece / pieces;
     const Index last = available * (piece + 1) / pieces;
@@ -61,7 +65,7 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     stretch.position.resize(last - first, recording.joints());
     stretch.velocity = stretch.acceleration = stretch.jerk = stretch.position;
     for (Index joint = 0; joint < recording.joints(); ++joint) {
-      const SmoothJoints& joints = span.joints[choose_smoothing(span, moving, joint, resolution)];
+      const SmoothJoints& joints = span.joints[smoothing[static_cast<std::size_t>(joint)]];
       stretch.position.col(joint) = joints.position(index, joint);
       const Index begin = index[0];
       const Index count = index[index.size() - 1] - begin + 1;
