@@ -263,6 +263,18 @@ def test_intervals_are_honest_in_free_motion_with_vibration():
     assert 0.6 < np.mean(squares) < 1.5
 
 
+def test_stretches_that_disagree_with_each_other_widen_the_intervals():
+    recording = recorded(free(60.0))
+    positions = np.array(recording.joint_positions)
+    positions[:, 1] += 2e-3 * np.cos(8.0 * positions[:, 1])  # a gear's error, which the model does not know
+    honest = estimate(recording)
+    wrong = estimate(cp.make_recording(recording.time, positions, recording.specific_force))
+    assert 1.0 <= honest.noise_inflation < 1.4
+    assert wrong.noise_inflation > 1.2 * honest.noise_inflation
+    errors, std = errors_and_std(wrong, chain_of(LINES))
+    assert np.mean((errors / std) ** 2) < 2.5
+
+
 @pytest.mark.parametrize(
     ("field", "bad", "words"),
     [

@@ -138,6 +138,24 @@ def test_findings_and_nearly_parallel_neighbours_are_said(tmp_path, brief_calibr
     assert "Nearly parallel neighbours: joint2 and joint3; joint3 and joint4." in text
 
 
+def test_residuals_on_data_not_used_stand_beside_those_on_data_used(tmp_path, brief_calibration):
+    def entry(name, residual, held_out):
+        return {
+            "name": name,
+            "samples": 321,
+            "residual_rms": residual,
+            "normalised_rms": 0.99,
+            "held_out_rms": held_out,
+            "held_out_normalised_rms": None if held_out is None else 1.01,
+        }
+
+    joint = brief_calibration.document["joints"][0]["name"]
+    brief_calibration.document["hold_out"] = [entry(joint, 4.77e-3, 4.81e-3), entry("several joints", 0.0123, None)]
+    text = Page(written(tmp_path, brief_calibration)).text
+    table = text[text.index("estimates that did not see") :]
+    assert table.index(joint) < table.index("4.77") < table.index("4.81") < table.index("several joints")
+
+
 def test_nothing_estimated_still_makes_a_page(tmp_path, calibration):
     for joint in calibration.document["joints"]:
         for key in ("direction_sensor", "point_sensor", "direction_std", "point_std", "covariance"):
