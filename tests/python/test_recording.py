@@ -94,3 +94,16 @@ def test_equal_ranges_are_one_key_and_no_range_equals_something_else():
     assert {cp.IndexRange(2, 5): "a"}[cp.IndexRange(2, 5)] == "a"
     assert cp.IndexRange(2, 5) != cp.IndexRange(2, 6)
     assert cp.IndexRange(2, 5) != (2, 5)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.08, 0.14, 0.2, 0.3])
+def test_true_jitter_of_any_size_is_believed_and_reported_and_no_sample_is_called_one_too_many(share):
+    period = 0.005
+    for seed in range(5):
+        random = np.random.default_rng(seed)
+        time = np.sort(np.arange(4000) * period + share * period * random.standard_normal(4000))
+        recording = cp.make_recording(time, np.sin(time)[:, None].copy(), np.ones((4000, 3)))
+        assert recording.timeline.jitter_std == pytest.approx(share * period, rel=0.1)
+        assert recording.sample_rate == pytest.approx(200.0, rel=1e-3)
+        assert len(recording.spans) == 1
+        np.testing.assert_allclose(recording.joint_positions[:, 0], np.sin(recording.time), atol=1e-5)

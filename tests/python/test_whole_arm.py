@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import circlepoint as cp
 from circlepoint.sensor_presets import load_sensor
@@ -113,6 +114,16 @@ def test_a_delay_of_the_sensor_is_found():
     result = estimate(shifted, clock_offset=cp.ParameterTreatment(std=0.01))
     assert value(result, "clock_offset").value == pytest.approx(late, abs=2e-5)
     assert_found(result, chain_of(LINES), 1e-3)
+
+
+def test_jittered_stamps_cost_nothing():
+    fine = recorded(sweeps_of(), noise=0.0, rate=1000.0)
+    random = np.random.default_rng(2)
+    time = np.sort(np.arange(0.01, fine.time[-1] - 0.01, 0.005))
+    time = np.sort(time + 5e-4 * random.standard_normal(time.size))
+    positions = CubicSpline(fine.time, fine.joint_positions)(time)
+    force = CubicSpline(fine.time, fine.specific_force)(time) + 0.005 * random.standard_normal((time.size, 3))
+    assert_found(estimate(cp.make_recording(time, positions, force)), chain_of(LINES))
 
 
 def test_a_scale_error_of_three_percent_is_found():

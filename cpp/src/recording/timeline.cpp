@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "circlepoint/core/error.hpp"
@@ -142,8 +143,9 @@ Timeline build(const Stamps& stamps, const TimelineOptions& options) {
   report.resolution = find_resolution(stamps);
   const Clock clock = fit_clock(time, options.max_filled);
   report.sample_rate = tidy_rate(1.0 / clock.period);
-  const bool countable = clock.scatter < 0.25 * clock.period;
   const bool rounded = clock.scatter <= std::max(0.6 * report.resolution, 1e-3 * clock.period);
+  // Rounding is bounded; jitter is not, and four of its standard deviations must stay within half a period.
+  const bool countable = clock.scatter < (rounded ? 0.25 : 0.12) * clock.period;
   report.rule = countable && rounded ? StampRule::regularised : StampRule::believed;
   timeline.row_time.resize(time.size());
   timeline.row_sample.resize(static_cast<std::size_t>(time.size()));
@@ -175,6 +177,8 @@ Timeline build(const Stamps& stamps, const TimelineOptions& options) {
       steps.push_back(time(i) - time(i - 1));
     }
     const double scatter = robust_std(steps);
+    report.jitter_std = scatter / std::numbers::sqrt2;  // a step holds the jitter of two stamps
+    report.jitter_max = 0.0;
     std::vector<Index> starts;
     for (Index i = 1; i < time.size(); ++i) {
       const double step = steps[static_cast<std::size_t>(i - 1)];
@@ -184,6 +188,8 @@ Timeline build(const Stamps& stamps, const TimelineOptions& options) {
         if (split) {
           starts.push_back(i);
         }
+      } else {
+        report.jitter_max = std::max(report.jitter_max, std::abs(step - period));
       }
     }
     timeline.rows = split_at(starts, time.size());

@@ -12,8 +12,8 @@
 //  - gaps: the phase jumps by whole periods and stays. Up to `max_filled` missing samples are interpolated, more split
 //    the recording into spans. The ticks are counted by tracking the phase, so a dropped sample shows even where
 //    rounding is as large as half a period.
-// Stamps with jitter above a quarter period cannot be counted in ticks: they are believed, and a gap is a step above
-// `gap_threshold` periods plus three standard deviations of the jitter.
+// Stamps with jitter above an eighth of a period (rounded ones: a quarter) cannot be counted in ticks: they are believed, and a gap
+// is a step above `gap_threshold` periods plus three standard deviations of the steps.
 // Failure: time that runs backwards, or repeated stamps that no late bunch explains (a row written twice).
 
 #include <Eigen/Core>
@@ -49,7 +49,7 @@ struct TimelineReport {
   double duration = 0.0;     ///< s, last stamp minus first
   double sample_rate = 0.0;  ///< Hz, fitted
   double jitter_std = 0.0;   ///< s, of the stamps against the uniform clock within spans
-  double jitter_max = 0.0;   ///< s, largest absolute value of the same
+  double jitter_max = 0.0;   ///< s, largest absolute value of the same; of steps against the period where ticks cannot be counted
   double resolution = 0.0;   ///< s, every stamp is a multiple of it (within the stamp's own digits); 0: none found
   StampRule rule = StampRule::regularised;
   Index late = 0;             ///< stamps more than half a period after their tick, though no sample is missing
