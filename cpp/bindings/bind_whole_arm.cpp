@@ -14,6 +14,8 @@ void bind_options(py::module_& m) {
   py::class_<WholeArmOptions>(m, "WholeArmOptions", "Options of calibrate_whole_arm.")
       .def(py::init<>())
       .def_readwrite("sensor", &WholeArmOptions::sensor, "prior on the individual sensor")
+      .def_readwrite("sensor_is_known", &WholeArmOptions::sensor_is_known,
+                     "False: the specification is a guess, and nothing that rests on it alone is given")
       .def_readwrite("bias", &WholeArmOptions::bias, "m/s^2; std 0: the sensor's specification")
       .def_readwrite("scale", &WholeArmOptions::scale, "1; std 0: the sensor's specification")
       .def_readwrite("misalignment", &WholeArmOptions::misalignment, "rad; std 0: the sensor's specification")

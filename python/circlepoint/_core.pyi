@@ -2358,6 +2358,14 @@ class WholeArmOptions:
     def sensor(self, arg0: AccelerometerSpecification) -> None:
         ...
     @property
+    def sensor_is_known(self) -> bool:
+        """
+        False: the specification is a guess, and nothing that rests on it alone is given
+        """
+    @sensor_is_known.setter
+    def sensor_is_known(self, arg0: bool) -> None:
+        ...
+    @property
     def threads(self) -> int:
         """
         0: as many as the machine has; the result does not depend on it

@@ -224,6 +224,7 @@ def _whole_arm_options(
 ) -> circlepoint.WholeArmOptions:
     options = circlepoint.WholeArmOptions()
     options.sensor = load_sensor(UNSPECIFIED_SENSOR) if sensor is None else sensor
+    options.sensor_is_known = sensor is not None
     options.gravity_magnitude = gravity
     options.joint_types = joint_types(arm)
     if recording.joint_timeline is not None:

@@ -205,8 +205,9 @@ def test_a_short_arc_is_known_badly_and_said_to_be():
     wide = estimate(recorded(sweeps_of(), noise=0.05))
     for one, other in zip(short.joints.joints, wide.joints.joints, strict=True):
         assert one.axis is None or one.axis.direction_std() > 5 * other.axis.direction_std()
-    assert any(joint.axis is None for joint in short.joints.joints)
     assert all(joint.reason for joint in short.joints.joints if joint.axis is None)
+    guessed = estimate(recorded(sweeps_of(span=0.12), noise=0.05), sensor_is_known=False)
+    assert all(joint.axis is None and joint.reason for joint in guessed.joints.joints)
     assert short.weak
     assert all(";" in weak.description for weak in short.weak)
 
@@ -228,6 +229,19 @@ def test_gravity_that_does_not_turn_leaves_no_line():
     result = cp.calibrate_whole_arm(recording, cp.segment(recording), options)
     joint = result.joints.joints[0]
     assert joint.axis is None or joint.axis.direction_std() > 1e-3
+
+
+def test_one_joint_alone_is_found_as_well_as_the_sensors_data_sheet_allows():
+    # Bias and tilt are one where the sensor turns about one axis only; what is known of the bias decides.
+    recording = recorded(sweeps_of([2]))
+    known = estimate(recording).joints.joints[2].axis
+    error = cp.local_coordinates(known.screw.line, chain_of(LINES).axes[2].line)
+    assert np.all(np.abs(error) < 4.0 * np.sqrt(np.diag(known.covariance)))
+    assert known.direction_std() < 2e-4
+    guessed = estimate(recording, sensor_is_known=False)
+    assert guessed.joints.joints[2].axis is None
+    assert "about one axis only" in guessed.joints.joints[2].reason
+    assert any("joint3.d1" in weak.description and "gravity" in weak.description for weak in guessed.weak)
 
 
 def test_knocks_are_cut_out_and_counted():

@@ -16,8 +16,9 @@ constexpr double vague_point = 0.02;      // m: a line less certain than this is
 std::string why_vague(const JointAxis& axis, bool gravity_seen) {
   const bool slides = axis.screw.type == JointType::prismatic;
   if (!gravity_seen && !slides) {
-    return "gravity hardly turns in the sensor's frame in this recording, so neither its direction nor the sensor's bias can be told "
-           "from the motion; hold still at six or more orientations of the sensor well apart, 1 s each";
+    return "gravity hardly turns in the sensor's frame in this recording, or about one axis only, so its direction cannot be told from the "
+           "sensor's bias; hold still at six or more orientations of the sensor well apart, 1 s each, or name the sensor if its data sheet "
+           "is known";
   }
   std::array<char, 160> text{};
   if (slides && axis.direction_std() > vague_direction) {

@@ -17,7 +17,7 @@ namespace circlepoint {
 namespace {
 
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
-constexpr double vague_gravity = 0.005;   // rad its direction may stay open by the data alone
+constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
 
 // What calibrate_joints does not check.
 void validate(const Recording& recording, const WholeArmOptions& options) {
@@ -196,7 +196,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.gyroscope_bias = state.gyroscope_bias;
   result.gyroscope_matrix = state.gyroscope_matrix;
 
-  const bool gravity_seen = seen.data_std.segment<3>(problem.layout.up_gravity).maxCoeff() < vague_gravity * options.gravity_magnitude;
+  const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * options.gravity_magnitude; };
+  const bool gravity_seen = settled(seen.data_std.segment<3>(problem.layout.up_gravity)) ||
+                            (options.sensor_is_known && settled(covariance.diagonal().segment<3>(problem.layout.up_gravity).cwiseSqrt()));
   write_lines(result.joints, problem.layout, state, covariance, gravity_seen);
   write_sensor(result.joints, problem.layout, state, covariance);
   result.joints.converged = result.converged;

@@ -38,6 +38,7 @@ struct ParameterTreatment {
 
 struct WholeArmOptions {
   AccelerometerSpecification sensor;    ///< prior on the individual sensor: its standard deviations treat bias to second order
+  bool sensor_is_known = true;          ///< false: the specification is a guess, and nothing that rests on it alone is given
   ParameterTreatment bias{true, 0.0};                 ///< m/s^2; std 0: the specification's, in this and the next four
   ParameterTreatment scale{true, 0.0};                ///< 1
   ParameterTreatment misalignment{true, 0.0};         ///< rad
