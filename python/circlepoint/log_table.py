@@ -1,6 +1,7 @@
 """What a log looks like to its reader: named columns of numbers, and the place of each row for messages.
 
-A file of rows (`circlepoint.tables`), a topic of a bag (`circlepoint.bags`) and arrays in memory are read alike.
+A file of rows (`circlepoint.tables`), a topic of a bag (`circlepoint.bags`) and arrays in memory
+(`circlepoint.arrays`) are read alike.
 """
 
 from __future__ import annotations
@@ -11,18 +12,19 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from circlepoint._core import InvalidInput
-
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
+    from circlepoint._core import InvalidInput
     from circlepoint.findings import Finding
 
 FloatArray = NDArray[np.float64]
 
 MANY_ROWS = 1_500_000
 """Rows above which a log is thinned out while it is read (`circlepoint.long_logs`)."""
+PIECE_ROWS = 1 << 17
+"""Rows of a piece of a log."""
 
 
 class LogTable(Protocol):
@@ -64,61 +66,6 @@ class LogTable(Protocol):
 
     def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
         """Yield the same columns piece by piece, in order."""
-
-
-@dataclass(frozen=True)
-class MemoryTable:
-    """Columns in memory.
-
-    Attributes
-    ----------
-    path : Path
-        The file they came from, or a name for arrays.
-    values : mapping of str to ndarray
-        Columns (N,) by name.
-    row : str
-        What a row is called in messages: ``"row"``, ``"message"``.
-    part : str
-        Which part of the file they are, such as a topic.
-    hint : str
-        What else the file holds.
-    findings : tuple of Finding
-        What taking them out of the file has shown.
-    """
-
-    path: Path
-    values: Mapping[str, FloatArray] = field(repr=False)
-    row: str = "row"
-    part: str = ""
-    hint: str = ""
-    findings: tuple[Finding, ...] = ()
-
-    @property
-    def long(self) -> bool:
-        """Whether it may be too long for memory."""
-        return next((values.size for values in self.values.values()), 0) > MANY_ROWS
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the columns."""
-        return tuple(self.values)
-
-    @property
-    def label(self) -> str:
-        """What messages call it."""
-        return f"{self.path}{self.part and ', ' + self.part}"
-
-    def error(self, message: str, row: int | None = None) -> InvalidInput:
-        """Return an InvalidInput about the table, or about one of its rows (0-based)."""
-        return InvalidInput(f"{self.label}{'' if row is None else f', {self.row} {row + 1}'}: {message}")
-
-    def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
-        """Return columns (N,) by name."""
-        return {name: self.values[name] for name in names}
-
-    def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
-        """Yield the columns as one piece."""
-        yield self.read(names)
 
 
 @dataclass(frozen=True)

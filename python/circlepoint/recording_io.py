@@ -8,6 +8,7 @@ Several recordings become one, in the order given.
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -156,12 +157,13 @@ def read_recording(
             raise InvalidInput(f"{path}: was given twice; give each file once")
     column_map = load_column_map(columns, arm) if columns is not None else ColumnMap()
     topics = (joint_topic or column_map.joint_topic, imu_topic or column_map.imu_topic)
-    tables: list[LogTable] = []
-    for path in files:
-        tables += open_bag(path, arm, column_map, *topics) if is_bag(path) else [open_table(path)]
     if any(topics) and not any(is_bag(path) for path in files):
         raise InvalidInput(f"{files[0]}: is not a bag; joint and IMU topics are for bags only")
-    return read_tables(tables, arm, column_map, gravity=gravity)
+    tables: list[LogTable] = []
+    with ExitStack() as opened:
+        for path in files:
+            tables += open_bag(path, arm, column_map, topics, opened) if is_bag(path) else [open_table(path)]
+        return read_tables(tables, arm, column_map, gravity=gravity)
 
 
 def read_tables(
@@ -221,7 +223,8 @@ def _paths(tables: Iterable[LogTable]) -> str:
 def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Iterator[Log]:
     """Yield the log in a table, or the two of different rates or clocks."""
     if table.long and not (names.joints and names.specific_force and names.sensor_time):
-        yield _read_long_log(table, names, arm, column_map, gravity)
+        log = _read_long_log(table, names, arm, column_map, gravity)
+        yield replace(log, one_clock=bool(table.part))
         return
     data = table.read(names.used)
     halves: list[tuple[LogTable, FileColumns]] = [(table, names)]

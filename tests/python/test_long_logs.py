@@ -5,9 +5,10 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 import pytest
+from bag_writer import write_recording_bag
 
 import circlepoint
-from circlepoint import log_table, long_logs, tables
+from circlepoint import arrays, bags, log_table, long_logs, scratch, tables
 from circlepoint.arm import load_arm
 from circlepoint.recording_io import read_recording
 
@@ -26,10 +27,12 @@ def arm(tmp_path):
 @pytest.fixture(autouse=True)
 def small_limits(monkeypatch):
     """Long logs are short here, and pieces end at odd places."""
-    for module in (log_table, long_logs, tables):
-        monkeypatch.setattr(module, "MANY_ROWS", 5000)
+    for module in (arrays, bags, log_table, long_logs, scratch, tables):
+        for name, value in (("MANY_ROWS", 5000), ("PIECE_ROWS", 777)):
+            if hasattr(module, name):
+                monkeypatch.setattr(module, name, value)
+    monkeypatch.setattr(scratch, "IN_MEMORY", 100_000)
     monkeypatch.setattr(long_logs, "KEPT", ROWS // FACTOR)
-    monkeypatch.setattr(tables, "_BLOCK_ROWS", 777)
     monkeypatch.setattr(tables, "_BLOCK_BYTES", 40_000)
 
 
@@ -46,6 +49,15 @@ def columns(t, q, a, scale=1.0):
 
 def write(folder, form, named):
     path = folder / f"log.{form}"
+    if form == "db3":
+        return write_recording_bag(
+            folder / "log",
+            "ROS 2 sqlite3",
+            ["pan", "slide"],
+            time=named["t"],
+            positions=np.column_stack([named["q1"], named["q2"]]),
+            force=np.column_stack([named["ax"], named["ay"], named["az"]]),
+        )
     table = pa.table(named)
     if form == "csv":
         pyarrow.csv.write_csv(table, path)
@@ -60,10 +72,11 @@ def require_motion(recording, tolerance):
     np.testing.assert_allclose(recording.specific_force, a, atol=10 * tolerance)
 
 
-@pytest.mark.parametrize("form", ["csv", "parquet"])
+@pytest.mark.parametrize("form", ["csv", "parquet", "db3"])
 def test_what_remains_is_the_motion_without_delay(form, arm, tmp_path):
     t = np.arange(ROWS) / RATE
     loaded = read_recording(write(tmp_path, form, columns(t, *motion(t))), arm)
+    assert not loaded.clock_alignments
     assert loaded.recording.sample_rate == pytest.approx(RATE / FACTOR)
     assert loaded.recording.samples == pytest.approx(ROWS / FACTOR - 32, abs=2)
     assert loaded.files[0].timeline.sample_rate == pytest.approx(RATE)
@@ -114,6 +127,26 @@ def test_joint_positions_stay_what_the_encoders_gave(arm, tmp_path):
     q, a = motion(t)
     loaded = read_recording(write(tmp_path, "parquet", columns(t, np.round(q / step) * step, a)), arm)
     assert loaded.encoder_steps[0] == pytest.approx(step, rel=1e-6)
+
+
+def test_no_room_for_a_long_bag_says_what_to_do(arm, tmp_path, monkeypatch):
+    t = np.arange(4000) / RATE
+    path = write(tmp_path, "db3", columns(t, *motion(t)))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
+    with pytest.raises(circlepoint.InvalidInput, match=r"nowhere: cannot hold.*TMPDIR"):
+        read_recording(path, arm)
+
+
+@pytest.mark.parametrize("form", ["mapping", "pyarrow"])
+def test_long_arrays_in_memory_are_thinned_out_as_files_are(form, arm, tmp_path):
+    t = np.arange(ROWS) / RATE
+    named = columns(t, *motion(t))
+    expected = read_recording(write(tmp_path, "parquet", named), arm).recording
+    table = pa.table(named) if form == "pyarrow" else {"t": t, "q": motion(t)[0], "a": motion(t)[1].astype(">f8")}
+    found = circlepoint.recording_from_arrays(table, arm=arm).recording
+    np.testing.assert_array_equal(found.time, expected.time)
+    np.testing.assert_array_equal(found.joint_positions, expected.joint_positions)
+    np.testing.assert_array_equal(found.specific_force, expected.specific_force)
 
 
 @pytest.mark.parametrize("form", ["csv", "parquet"])
