@@ -63,7 +63,7 @@ def recording_from_arrays(
     """
     if not tables:
         raise InvalidInput("no table was given; give columns by name, such as {'t': t, 'q': q, 'a': a}")
-    column_map = load_column_map(columns, arm) if columns is not None else ColumnMap()
+    column_map = load_column_map(columns, arm.driven) if columns is not None else ColumnMap()
     labels = ["table" if len(tables) == 1 else f"table {index + 1}" for index in range(len(tables))]
     memory = [_table(label, table) for label, table in zip(labels, tables, strict=True)]
     return read_tables(memory, arm, column_map, gravity=gravity)

@@ -155,14 +155,14 @@ def read_recording(
     for index, path in enumerate(files):
         if path in files[:index]:
             raise InvalidInput(f"{path}: was given twice; give each file once")
-    column_map = load_column_map(columns, arm) if columns is not None else ColumnMap()
+    column_map = load_column_map(columns, arm.driven) if columns is not None else ColumnMap()
     topics = (joint_topic or column_map.joint_topic, imu_topic or column_map.imu_topic)
     if any(topics) and not any(is_bag(path) for path in files):
         raise InvalidInput(f"{files[0]}: is not a bag; joint and IMU topics are for bags only")
     tables: list[LogTable] = []
     with ExitStack() as opened:
         for path in files:
-            tables += open_bag(path, arm, column_map, topics, opened) if is_bag(path) else [open_table(path)]
+            tables += open_bag(path, arm.driven, column_map, topics, opened) if is_bag(path) else [open_table(path)]
         return read_tables(tables, arm, column_map, gravity=gravity)
 
 
@@ -170,14 +170,17 @@ def read_tables(
     tables: Sequence[LogTable], arm: Arm, column_map: ColumnMap, *, gravity: float = STANDARD_GRAVITY
 ) -> LoadedRecording:
     """Make one recording of tables that were opened; see `read_recording`."""
+    driven = arm.driven
     _require_stated_columns(tables, column_map)
-    found = [find_columns(table, arm, column_map) for table in tables]
-    _require_both_halves(tables, found, arm)
+    found = [find_columns(table, driven, column_map) for table in tables]
+    _require_both_halves(tables, found, driven)
     logs = [
         log
         for table, names in zip(tables, found, strict=True)
-        for log in _read_logs(table, names, arm, column_map, gravity)
+        for log in _read_logs(table, names, driven, column_map, gravity)
     ]
+    files = tuple(_describe(log, driven) for log in logs)
+    logs = [_following(log, arm) for log in logs]
     assembly = assemble(logs)
     recordings = assembly.recordings
     recording = recordings[0] if len(recordings) == 1 else circlepoint.concatenate(recordings)
@@ -185,7 +188,7 @@ def read_tables(
     findings = [finding for log in logs for finding in log.findings]
     return LoadedRecording(
         recording=recording,
-        files=tuple(_describe(log, arm) for log in logs),
+        files=files,
         clock_alignments=tuple(assembly.alignments),
         encoder_steps=steps,
         findings=(*findings, *assembly.findings, *encoder_findings(steps, arm)),
@@ -214,6 +217,13 @@ def _require_both_halves(tables: Sequence[LogTable], found: Sequence[FileColumns
             f"are taken in pairs in "
             "the order given, so there must be as many of each"
         )
+
+
+def _following(log: Log, arm: Arm) -> Log:
+    """Return a log with the positions of the joints that mimic others beside those that were recorded."""
+    if log.joint_positions is None:
+        return log
+    return replace(log, joint_positions=arm.follow(log.joint_positions))
 
 
 def _paths(tables: Iterable[LogTable]) -> str:

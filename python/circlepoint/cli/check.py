@@ -7,14 +7,14 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from circlepoint.arm import load_arm
 from circlepoint.check import JointCheck, LogCheck, check_recording
-from circlepoint.cli.options import Subparsers, add_command, add_recording
+from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, recording_of
 from circlepoint.document import finding_entries
-from circlepoint.recording_io import LogFile, read_recording
 
 if TYPE_CHECKING:
     import argparse
+
+    from circlepoint.recording_io import LogFile
 
 _TEXT = """\
 Show what is in a log: sample rate, jitter and gaps, clipping, what the sensor reads at rest, the encoders' steps, the
@@ -46,15 +46,8 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    arm = load_arm(options.arm, base=options.base, tip=options.tip)
-    loaded = read_recording(
-        options.logs,
-        arm,
-        options.columns,
-        gravity=options.gravity,
-        joint_topic=options.joint_topic,
-        imu_topic=options.imu_topic,
-    )
+    arm = arm_of(options)
+    loaded = recording_of(options, arm)
     result = check_recording(loaded, arm, gravity=options.gravity)
     print(json.dumps(check_document(result), indent=1, allow_nan=False) if options.json else format_check(result))
     return 0 if result.ready else 1

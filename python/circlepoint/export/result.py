@@ -38,6 +38,8 @@ class CalibratedArm:
         Of the axes' local coordinates (d1, d2, p1, p2), base to tip; rad^2, rad m, m^2.
     convention : str
         Of the Denavit-Hartenberg parameters in the result: "standard" or "modified".
+    mimics : tuple of mapping
+        Which joints follow others: ``joint``, ``mimics``, ``multiplier``, ``offset``.
     """
 
     name: str
@@ -45,6 +47,7 @@ class CalibratedArm:
     chain: circlepoint.ScrewChain
     covariance: NDArray[np.float64]
     convention: str
+    mimics: tuple[Mapping[str, Any], ...] = ()
 
     @property
     def joint_types(self) -> list[circlepoint.JointType]:
@@ -110,6 +113,7 @@ def calibrated_arm(document: Any, *, where: str = "calibration document") -> Cal
         chain=circlepoint.ScrewChain(axes, reference),
         covariance=covariance,
         convention=(document.get("dh") or {}).get("convention", "standard"),
+        mimics=tuple(document.get("mimics", ())),
     )
 
 

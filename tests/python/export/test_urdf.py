@@ -171,20 +171,14 @@ def test_odd_but_legal_text_survives(newline, built_urdf):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("<!-- by hand -->", '<!DOCTYPE robot [<!ENTITY x "1">]>', "declares entities"),
-        ("<!-- by hand -->", '<!DOCTYPE robot [<!ENTITY x SYSTEM "file:///etc/passwd">]>', "declares entities"),
-        ("<!-- by hand -->", '<!DOCTYPE robot SYSTEM "http://localhost/robot.dtd">', "external part"),
-        ('<link name="two"/>', '<xi:include href="other.xml"/><link name="two"/>', "includes another file"),
-        ('<link name="two"/>', '<xacro:arm name="x"/><link name="two"/>', "expand it with xacro"),
-        ("xyz='0.2 0 0'", "xyz='${length} 0 0'", "line 14: joint 'b': origin xyz is"),
-        ("xyz='0.2 0 0'", "xyz='0.2 0'", "must be three numbers"),
-        ('<axis xyz="0 1 0"/>', '<axis xyz="0 0 0"/>', "its axis is zero"),
-        ('type="continuous"', 'type="floating"', "joint 'a' is floating"),
-        ('<axis xyz="0 1 0"/>', '<axis xyz="0 1 0"/><mimic joint="a"/>', "joint 'b' mimics"),
+        ("<!-- by hand -->", '<!DOCTYPE robot [<!ENTITY x "1">]>', "has a document type"),
+        ('<link name="two"/>', '<xacro:arm name="x"/><link name="two"/>', "run `xacro`"),
+        ("xyz='0.2 0 0'", "xyz='0.2 0'", "line 15: joint 'b' <origin>: xyz=\"0.2 0\" must be 3 numbers"),
+        ('<axis xyz="0 1 0"/>', '<axis xyz="0 0 0"/>', "has no direction"),
+        ('type="continuous"', 'type="floating"', "joint 'a': is of type 'floating'"),
         ('<joint name="b" type="revolute">', '<joint name="b2" type="revolute">', "has no joint 'b'"),
-        ('<joint name="b" type="revolute">', '<joint name="a" type="revolute">', "has several joints 'a'"),
-        ("</robot>", "", "not valid XML"),
-        ("robot", "model", "top element"),
+        ('<joint name="b" type="revolute">', '<joint name="a" type="revolute">', "two joints are named 'a'"),
+        ("</robot>", "", "is not XML"),
     ],
 )
 def test_a_urdf_that_will_not_do_is_refused_with_the_reason(old, new, message, built_urdf):
@@ -196,8 +190,8 @@ def test_a_urdf_that_will_not_do_is_refused_with_the_reason(old, new, message, b
 @pytest.mark.parametrize(
     ("base", "tip", "message"),
     [
-        ("nowhere", None, "has no link 'nowhere'"),
-        ("tool", "base", "not beyond"),
+        ("nowhere", None, "--base 'nowhere' is not a link"),
+        ("tool", "base", "link 'tool' (--base) is not on the way"),
         ("one", "tool", "from 'one' to 'tool' the joints b, c move"),
     ],
 )
