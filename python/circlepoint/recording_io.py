@@ -78,6 +78,8 @@ class LogFile:
         Rate, jitter and gaps of its stamps.
     quantities : tuple of Quantity
         What its columns were taken for.
+    beyond : tuple of int
+        Joints (0-based) that are known not to move the sensor.
     """
 
     path: Path
@@ -87,6 +89,7 @@ class LogFile:
     sensor: bool
     timeline: circlepoint.TimelineReport
     quantities: tuple[Quantity, ...]
+    beyond: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -312,7 +315,7 @@ def _read_log(
     time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
     require_order(table, names.time, data[names.time])
     timeline = table_timeline(table, time)
-    findings = list(table.findings)
+    findings = [*table.findings, *(Finding("columns", f"{source}: {note}") for note in names.notes)]
     findings += [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
     findings += time_findings(time, timeline.sample_rate, source, column_map)
     positions = force = None
@@ -386,4 +389,5 @@ def _describe(log: Log, arm: Arm) -> LogFile:
         sensor=log.specific_force is not None,
         timeline=log.timeline,
         quantities=quantities(log, arm),
+        beyond=log.columns.beyond,
     )

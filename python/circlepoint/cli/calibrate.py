@@ -14,6 +14,7 @@ from circlepoint.calibration import Calibration, calibrate
 from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, numbers, progress, recording_of
 from circlepoint.document import with_reading, write_document
 from circlepoint.export import write_description
+from circlepoint.findings import few_gaps
 from circlepoint.sensor_presets import load_sensor
 
 if TYPE_CHECKING:
@@ -144,8 +145,8 @@ def _print_tables(document: Mapping[str, Any], folder: Path) -> None:
     for combination in document["identifiability"]["unseen"]:
         if not any(combination.startswith(f"{joint['name']} line:") for joint in document["joints"] if joint["reason"]):
             print(f"hardly seen: {combination}")
-    for finding in document["findings"]:
-        print(f"note: {finding['message']}")
+    for message in few_gaps([finding["message"] for finding in document["findings"]]):
+        print(f"note: {message}")
     print(f"written: {folder / 'calibration.json'}, {folder / 'report.html'}")
 
 
