@@ -5,11 +5,11 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 import pytest
+from arm_files import arm_of
 from bag_writer import write_recording_bag
 
 import circlepoint
 from circlepoint import arrays, bags, log_table, long_logs, scratch, tables
-from circlepoint.arm import load_arm
 from circlepoint.recording_io import read_recording
 
 RATE = 1000.0
@@ -19,9 +19,7 @@ FACTOR = 8
 
 @pytest.fixture
 def arm(tmp_path):
-    path = tmp_path / "arm.yaml"
-    path.write_text("name: two\njoints:\n  - {name: pan, type: revolute}\n  - {name: slide, type: prismatic}\n")
-    return load_arm(path)
+    return arm_of(tmp_path, pan="revolute", slide="prismatic")
 
 
 @pytest.fixture(autouse=True)

@@ -18,6 +18,7 @@ from circlepoint.truth import truth_at, truth_chain
 URDF = """<?xml version="1.0"?>
 <robot name="geared">
   <link name="base"/><link name="one"/><link name="two"/><link name="three"/><link name="hand"/><link name="finger"/>
+  <link name="tool"/>
   <joint name="pan" type="revolute"><parent link="base"/><child link="one"/><origin xyz="0 0 0.3" rpy="0.2 0.3 0"/>
     <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="2"/></joint>
   <joint name="lift" type="revolute"><parent link="one"/><child link="two"/><origin xyz="0.1 0 0.2" rpy="1.5 0 0"/>
@@ -27,6 +28,7 @@ URDF = """<?xml version="1.0"?>
     <mimic joint="lift" multiplier="-0.5" offset="0.3"/></joint>
   <joint name="roll" type="revolute"><parent link="three"/><child link="hand"/><origin xyz="0.3 0.05 0" rpy="0 1.4 0"/>
     <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="2"/></joint>
+  <joint name="flange" type="fixed"><parent link="hand"/><child link="tool"/><origin xyz="0 0 0.1"/></joint>
   <joint name="grip" type="revolute"><parent link="hand"/><child link="finger"/><axis xyz="0 0 1"/>
     <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
 </robot>
@@ -55,7 +57,7 @@ def folder(tmp_path_factory):
 def simulated(folder, text):
     (folder / "arm.urdf").write_text(text)
     (folder / "plan.yaml").write_text(PLAN)
-    arm = ["--arm", str(folder / "arm.urdf"), "--base", "base", "--tip", "hand"]
+    arm = ["--arm", str(folder / "arm.urdf"), "--base", "base", "--tip", "tool"]
     log = str(folder / "log.csv")
     assert main(["simulate", str(folder / "plan.yaml"), *arm, "--sensor", "qa700", "--out", log, "--seed", "3"]) == 0
     return arm
@@ -84,8 +86,10 @@ def test_the_urdf_comes_back_with_its_mimic_tag_and_an_independent_reader_gets_t
     yourdfpy = pytest.importorskip("yourdfpy")
     written = folder / "result" / "arm.urdf"
     assert MIMIC in written.read_text()
+    assert "tip_frame: tool\n" in (folder / "result" / "arm.urdf.yaml").read_text()
+    assert "base_frame: base\n" in (folder / "result" / "arm.urdf.yaml").read_text()
     document = json.loads((folder / "result" / "calibration.json").read_text())
-    notes = circlepoint.export.export_result(folder / "result", "urdf", base="base", tip="hand").document
+    notes = circlepoint.export.export_result(folder / "result", "urdf", base="base", tip="tool").document
     assert notes["mimics"] == document["mimics"]
     chain = calibrated_arm(document).chain
     model = yourdfpy.URDF.load(str(written), load_meshes=False, build_scene_graph=True)
@@ -95,7 +99,7 @@ def test_the_urdf_comes_back_with_its_mimic_tag_and_an_independent_reader_gets_t
     for q in random.uniform(-2, 2, (300, 3)):
         model.update_cfg(dict(zip(("pan", "lift", "roll"), q, strict=True)) | {"grip": 0.0})
         expected = at_reference @ circlepoint.forward_kinematics(chain, arm.follow(q[None])[0])
-        found = model.get_transform("hand", "base") @ np.array(notes["T_tip_sensor"])
+        found = model.get_transform("tool", "base") @ np.array(notes["T_tip_sensor"])
         np.testing.assert_allclose(found, expected, atol=1e-9)
 
 
@@ -150,7 +154,7 @@ def test_a_joint_may_mimic_one_that_mimics_another(tmp_path):
 @pytest.mark.parametrize(
     ("mimic", "words"),
     [
-        ('<mimic joint="elbow"/>', ["line 8", "'geared'", "'elbow'", "pan, lift, geared, roll, grip"]),
+        ('<mimic joint="elbow"/>', ["line 9", "'geared'", "'elbow'", "pan, lift, geared, roll, grip"]),
         ('<mimic joint="geared"/>', ["'geared'", "mimics itself"]),
         ('<mimic joint="lift" multiplier="0"/>', ["'geared'", "multiplier", "fixed"]),
         ('<mimic joint="lift" multiplier="much"/>', ["<mimic>", "much", "a number"]),

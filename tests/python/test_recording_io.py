@@ -6,6 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet
 import pytest
+from arm_files import arm_of
 
 import circlepoint
 from circlepoint.arm import load_arm
@@ -16,9 +17,7 @@ RATE = 100.0
 
 @pytest.fixture
 def arm(tmp_path):
-    path = tmp_path / "arm.yaml"
-    path.write_text("name: two\njoints:\n  - {name: pan, type: revolute}\n  - {name: slide, type: prismatic}\n")
-    return load_arm(path)
+    return arm_of(tmp_path, pan="revolute", slide="prismatic")
 
 
 @pytest.fixture
@@ -250,20 +249,15 @@ def modules(count, rows=200):
     return named
 
 
-def arm_of(tmp_path, joints):
-    path = tmp_path / "arm.yaml"
-    rows = ", ".join(f"{{name: joint{k + 1}, type: revolute}}" for k in range(joints))
-    path.write_text(f"name: modular\njoints: [{rows}]\n")
-    return load_arm(path)
-
-
 @pytest.mark.parametrize(("joints", "sensor", "beyond"), [(4, 5, ()), (2, 3, ()), (5, 5, (4,))])
 def test_an_arm_of_modules_is_read_by_its_names(joints, sensor, beyond, tmp_path):
     named = modules(5)
     (tmp_path / "log.csv").write_text(
         "\n".join([",".join(named), *(",".join(map(str, row)) for row in zip(*named.values(), strict=True))]) + "\n"
     )
-    loaded = read_recording(tmp_path / "log.csv", arm_of(tmp_path, joints))
+    loaded = read_recording(
+        tmp_path / "log.csv", arm_of(tmp_path, **dict.fromkeys([f"joint{k + 1}" for k in range(joints)], "revolute"))
+    )
     assert not loaded.clock_alignments
     quantities = {quantity.name: quantity.columns for quantity in loaded.files[0].quantities}
     assert quantities["time"] == (f"hwt{sensor}",)
@@ -276,6 +270,9 @@ def test_an_arm_of_modules_is_read_by_its_names(joints, sensor, beyond, tmp_path
 
 
 def test_a_real_arm_of_modules_needs_no_column_map(shared_data, tmp_path):
-    loaded = read_recording(shared_data / "real-hebi-5module" / "log.csv.gz", arm_of(tmp_path, 4))
+    loaded = read_recording(
+        shared_data / "real-hebi-5module" / "log.csv.gz",
+        arm_of(tmp_path, a="revolute", b="revolute", c="revolute", d="revolute"),
+    )
     assert loaded.files[0].samples == 1508
     assert np.abs(np.asarray(loaded.recording.specific_force)).max() < 30

@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 
 import circlepoint
-from circlepoint.export import calibrated_arm, export_result, write_calibrated_urdf, write_export
+from circlepoint.export import (
+    calibrated_arm,
+    export_result,
+    write_calibrated_urdf,
+    write_description,
+    write_export,
+)
 from circlepoint.export.urdf import export_urdf
 
 SAME_POSE = 1e-9
@@ -239,3 +245,36 @@ def test_the_command_finds_the_nominal_urdf_kept_in_the_result(built_robot, tmp_
     assert "kept nominal: base frame (base_link)" in printed
     expected = write_calibrated_urdf(file.text, built.document, file.base, file.tip)
     assert (tmp_path / "arm.urdf").read_bytes().decode() == expected
+
+
+@pytest.mark.parametrize("name", ["arm.urdf", "arm.URDF", "arm.xml", "arm.urdf.xacro", "description.txt"])
+def test_every_file_that_holds_a_urdf_is_kept_and_comes_back_as_one(name, built_robot, tmp_path):
+    file, built = built_robot("ur5")
+    came = tmp_path / name
+    came.write_bytes(file.text.encode())
+    folder = tmp_path / "result"
+    folder.mkdir()
+    written = write_description(folder, came, built.document, base=file.base, tip=file.tip)
+    assert [path.name for path in written] == ["nominal.urdf", "arm.urdf.yaml", "arm.urdf"]
+    assert (folder / "arm.urdf").read_bytes().decode() == write_calibrated_urdf(
+        file.text, built.document, file.base, file.tip
+    )
+    exported = export_result(write_result(folder, built), "urdf", arm=came, base=file.base, tip=file.tip)
+    assert exported.texts[".urdf"] == (folder / "arm.urdf").read_text()
+
+
+def write_result(folder, built):
+    (folder / "calibration.json").write_text(json.dumps(built.document))
+    return folder
+
+
+def test_the_tip_the_arm_was_calibrated_with_is_that_of_the_urdf_written(built_robot, tmp_path):
+    file, built = built_robot("panda")
+    (tmp_path / "arm.urdf").write_bytes(file.text.encode())
+    notes = []
+    for tip in ("panda_hand", "panda_hand_tcp"):
+        (tmp_path / tip).mkdir()
+        write_description(tmp_path / tip, tmp_path / "arm.urdf", built.document, base=file.base, tip=tip)
+        notes.append((tmp_path / tip / "arm.urdf.yaml").read_text())
+    assert "tip_frame: panda_hand\n" in notes[0]
+    assert "tip_frame: panda_hand_tcp\n" in notes[1]
