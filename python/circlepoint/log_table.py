@@ -6,7 +6,8 @@ A file of rows (`circlepoint.tables`), a topic of a bag (`circlepoint.bags`) and
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import itertools
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -69,12 +70,19 @@ class LogTable(Protocol):
 
 
 @dataclass(frozen=True)
-class SelectedRows:
-    """Some rows of a table: those of one of the two rates that a log of joints and sensor can have."""
+class RowsWith:
+    """The rows of a table that hold some of its columns: those of one of the two rates a log can have.
+
+    Attributes
+    ----------
+    table : LogTable
+        The log.
+    group : tuple of str
+        Rows in which all of these are empty belong to the other rate.
+    """
 
     table: LogTable
-    values: Mapping[str, FloatArray] = field(repr=False)
-    rows: NDArray[np.intp] = field(repr=False)
+    group: tuple[str, ...]
 
     @property
     def path(self) -> Path:
@@ -84,7 +92,7 @@ class SelectedRows:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns."""
-        return tuple(self.values)
+        return self.table.columns
 
     @property
     def label(self) -> str:
@@ -103,8 +111,8 @@ class SelectedRows:
 
     @property
     def long(self) -> bool:
-        """Whether the table may be too long for memory: its rows have been read."""
-        return False
+        """Whether the table may be too long for memory."""
+        return self.table.long
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -113,15 +121,35 @@ class SelectedRows:
 
     def error(self, message: str, row: int | None = None) -> InvalidInput:
         """Return an InvalidInput about the table, or about one of these rows (0-based)."""
-        return self.table.error(message, None if row is None else int(self.rows[row]))
+        if row is not None:
+            row = next(itertools.islice(self._rows(), row, None), row)
+        return self.table.error(message, row)
 
     def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
         """Return columns (N,) by name."""
-        return {name: self.values[name][self.rows] for name in names}
+        pieces = list(self.batches(names))
+        return {name: np.concatenate([np.empty(0), *(piece[name] for piece in pieces)]) for name in names}
 
     def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
-        """Yield the columns as one piece."""
-        yield self.read(names)
+        """Yield the same columns piece by piece, in order."""
+        for piece in self.table.batches(list(dict.fromkeys([*names, *self.group]))):
+            there = ~empty_rows(piece, self.group)
+            if there.any():
+                yield {name: piece[name][there] for name in names}
+
+    def _rows(self) -> Iterator[int]:
+        """Yield which row of the table each of these rows is."""
+        first = 0
+        for piece in self.table.batches(self.group):
+            empty = empty_rows(piece, self.group)
+            yield from (first + np.flatnonzero(~empty)).tolist()
+            first += empty.size
+
+
+def empty_rows(piece: Mapping[str, FloatArray], group: Sequence[str]) -> NDArray[np.bool_]:
+    """Say in which rows all columns of a group are empty."""
+    empty: NDArray[np.bool_] = np.logical_and.reduce([np.isnan(piece[name]) for name in group])
+    return empty
 
 
 def require_finite(table: LogTable, name: str, values: FloatArray, first_row: int = 0) -> None:

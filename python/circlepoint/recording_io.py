@@ -33,7 +33,7 @@ from circlepoint.column_map import (
     missing_specific_force,
 )
 from circlepoint.findings import Finding
-from circlepoint.log_table import LogTable, SelectedRows, require_finite
+from circlepoint.log_table import LogTable, RowsWith, empty_rows, require_finite
 from circlepoint.long_logs import gap_options, read_column, thin, thinning_factor
 from circlepoint.plausibility import (
     encoder_findings,
@@ -235,20 +235,35 @@ def _paths(tables: Iterable[LogTable]) -> str:
 
 def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Iterator[Log]:
     """Yield the log in a table, or the two of different rates or clocks."""
-    if table.long and not (names.joints and names.specific_force and names.sensor_time):
-        log = _read_long_log(table, names, arm, column_map, gravity)
-        yield replace(log, one_clock=bool(table.part))
-        return
-    data = table.read(names.used)
+    data = None if table.long else table.read(names.used)
     halves: list[tuple[LogTable, FileColumns]] = [(table, names)]
     if names.joints and names.specific_force:
-        halves = _two_rates(table, names, data) or halves
-        if names.sensor_time and len(halves) == 1:
+        pieces = table.batches([*names.joints, *names.specific_force]) if data is None else [data]
+        if _have_two_rates(pieces, names.joints, names.specific_force):
+            halves = [
+                (RowsWith(table, names.joints), names.joint_half),
+                (RowsWith(table, names.specific_force), names.sensor_half),
+            ]
+        elif names.sensor_time:
             halves = [(table, names.joint_half), (table, names.sensor_half)]
     claimed = bool(table.part) or (len(halves) == 2 and not names.sensor_time)
     for half, columns in halves:
-        values = half.read(columns.used) if half is not table else data
-        yield replace(_read_log(half, columns, values, arm, column_map, gravity=gravity), one_clock=claimed)
+        if half.long:
+            log = _read_long_log(half, columns, arm, column_map, gravity)
+        else:
+            values = data if half is table and data is not None else half.read(columns.used)
+            log = _read_log(half, columns, values, arm, column_map, gravity=gravity)
+        yield replace(log, one_clock=claimed)
+
+
+def _have_two_rates(pieces: Iterable[dict[str, FloatArray]], joints: tuple[str, ...], force: tuple[str, ...]) -> bool:
+    """Whether many rows of a log have no joints, or no sensor."""
+    rows = 0
+    empty = np.zeros(2, dtype=int)
+    for piece in pieces:
+        rows += piece[joints[0]].size
+        empty += [np.count_nonzero(empty_rows(piece, group)) for group in (joints, force)]
+    return rows >= MIN_SAMPLES and bool(empty.max() >= MIN_SHARE * rows)
 
 
 def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Log:
@@ -278,20 +293,6 @@ def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: Co
     notes = [Finding("timeline", f"{table.label}: {note}") for note in timeline.notes]
     kept = [finding for finding in log.findings if finding.code not in {"timeline", "clipping"}]
     return replace(log, timeline=timeline, findings=[*notes, *thinned.findings, *kept])
-
-
-def _two_rates(
-    table: LogTable, names: FileColumns, data: dict[str, FloatArray]
-) -> list[tuple[LogTable, FileColumns]] | None:
-    """Return the rows of joints and the rows of the sensor, where one log holds two rates; None where it does not."""
-    joints, sensor = (
-        np.logical_and.reduce([np.isnan(data[name]) for name in group])
-        for group in (names.joints or (), names.specific_force or ())
-    )
-    if data[names.time].size < MIN_SAMPLES or max(joints.mean(), sensor.mean()) < MIN_SHARE:
-        return None
-    halves = ((~joints, names.joint_half), (~sensor, names.sensor_half))
-    return [(SelectedRows(table, data, np.flatnonzero(rows)), columns) for rows, columns in halves]
 
 
 def _read_log(

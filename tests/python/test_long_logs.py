@@ -161,6 +161,46 @@ def test_bad_values_are_found_wherever_they_are(form, arm, tmp_path):
         read_recording(write(tmp_path, form, columns(backwards, q, motion(t)[1])), arm)
 
 
+@pytest.mark.parametrize("written", ["rows between rows", "a clock of its own"])
+def test_long_logs_of_two_rates_are_thinned_out_apart(written, arm, tmp_path):
+    t = np.arange(ROWS) / RATE
+    q, a = motion(t)
+    named = columns(t, q, a)
+    if written == "rows between rows":
+        joints, sensor = np.arange(ROWS) % 2 == 0, np.arange(ROWS) % 2 == 1
+        for name in ("q1", "q2"):
+            named[name] = np.where(joints, named[name], np.nan)
+        for name in ("ax", "ay", "az"):
+            named[name] = np.where(sensor, named[name], np.nan)
+    else:  # a pendulum that swings faster and faster
+        swing = 0.9 * np.sin(0.5 * t + 0.1 * t**2)
+        named = columns(
+            t, np.column_stack([swing, 0 * t]), 9.8 * np.column_stack([np.sin(swing), np.cos(swing), 0 * t])
+        )
+        named["t_sensor"] = t + 0.25
+    loaded = read_recording(write(tmp_path, "csv", named), arm)
+    assert [file.joints for file in loaded.files] == [True, False]
+    assert [finding.code for finding in loaded.findings].count("thinned") == 2
+    if written == "rows between rows":
+        require_motion(loaded.recording, 1e-4)
+    else:
+        (clock,) = loaded.clock_alignments
+        assert clock.offset == pytest.approx(0.25, abs=0.01)
+
+
+def test_a_bad_value_in_one_of_two_rates_is_found_where_it_is(arm, tmp_path):
+    t = np.arange(ROWS) / RATE
+    named = columns(t, *motion(t))
+    odd = np.arange(ROWS) % 2 == 1
+    for name in ("q1", "q2"):
+        named[name] = np.where(odd, np.nan, named[name])
+    for name in ("ax", "ay", "az"):
+        named[name] = np.where(odd, named[name], np.nan)
+    named["ay"][12_345] = np.nan
+    with pytest.raises(circlepoint.InvalidInput, match=r"line 12347: column `ay` is empty"):
+        read_recording(write(tmp_path, "csv", named), arm)
+
+
 def test_clipping_is_found_in_the_raw_samples_and_units_hold(arm, tmp_path):
     t = np.arange(ROWS) / RATE
     q, a = motion(t)
