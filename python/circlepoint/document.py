@@ -129,6 +129,11 @@ def missing_joint_entry(name: str, joint_type: str, reason: str, tests: Sequence
     return {"name": name, "type": joint_type, **line, "reason": reason, "tests": plain(list(tests))}
 
 
+def with_description(document: Mapping[str, Any], path: Path, base: str | None, tip: str | None) -> Document:
+    """Return the document with the arm's description it was made with: a file, and links of a URDF."""
+    return {**document, "description": {"file": path.name, "base": base, "tip": tip}}
+
+
 def with_reading(document: Mapping[str, Any], loaded: LoadedRecording) -> Document:
     """Return the document with what reading the files has shown: clocks, findings, what was recorded.
 

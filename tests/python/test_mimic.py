@@ -89,7 +89,10 @@ def test_the_urdf_comes_back_with_its_mimic_tag_and_an_independent_reader_gets_t
     assert "tip_frame: tool\n" in (folder / "result" / "arm.urdf.yaml").read_text()
     assert "base_frame: base\n" in (folder / "result" / "arm.urdf.yaml").read_text()
     document = json.loads((folder / "result" / "calibration.json").read_text())
-    notes = circlepoint.export.export_result(folder / "result", "urdf", base="base", tip="tool").document
+    export = circlepoint.export.export_result(folder / "result", "urdf")  # with base and tip as calibrated
+    assert export.texts[".urdf"] == written.read_text()
+    notes = export.document
+    assert (notes["base_frame"], notes["tip_frame"]) == ("base", "tool")
     assert notes["mimics"] == document["mimics"]
     chain = calibrated_arm(document).chain
     model = yourdfpy.URDF.load(str(written), load_meshes=False, build_scene_graph=True)

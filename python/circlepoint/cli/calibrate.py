@@ -12,7 +12,7 @@ from circlepoint._core import InvalidInput
 from circlepoint.atomic import require_writable_folder
 from circlepoint.calibration import Calibration, calibrate
 from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, numbers, progress, recording_of
-from circlepoint.document import with_reading, write_document
+from circlepoint.document import with_description, with_reading, write_document
 from circlepoint.export import write_description
 from circlepoint.findings import few_gaps
 from circlepoint.sensor_presets import load_sensor
@@ -121,7 +121,8 @@ def _estimate(
         gravity=options.gravity,
         reference_configuration=options.reference_configuration,
     )
-    return replace(calibration, document=with_reading(calibration.document, loaded))
+    document = with_reading(calibration.document, loaded)
+    return replace(calibration, document=with_description(document, options.arm, options.base, options.tip))
 
 
 def _write(folder: Path, calibration: Calibration) -> None:

@@ -122,7 +122,7 @@ def _verdicts(result: LogCheck) -> list[str]:
             said += f"; badly: {f'all {count} joints' if len(weak) == count else ', '.join(weak)}"
         elif whole and result.gravity_status == "weak":
             said += "; badly, as gravity turns too little"
-        lines.append(f"{name}: {said}")
+        lines += textwrap.wrap(f"{name}: {said}", _WIDTH, subsequent_indent="  ", break_on_hyphens=False)
     return lines
 
 

@@ -132,7 +132,7 @@ def _decimals(line: Line) -> int:
 def _cells(line: Line) -> list[str]:
     decimals = _decimals(line)
     numbers = (line.nominal, line.calibrated, line.change)
-    shown = ["-" if number is None else f"{number:.{decimals}f}" for number in numbers]
+    shown = ["-" if number is None else f"{round(number, decimals) + 0.0:.{decimals}f}" for number in numbers]
     interval = "kept" if line.interval is None else f"± {line.interval:.{decimals}f}"
     return [line.joint, line.parameter, line.unit, *shown, interval]
 

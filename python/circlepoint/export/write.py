@@ -72,7 +72,7 @@ def export_result(
     arm : Path, optional
         The nominal description, ``arm.yaml`` or URDF; by default the one kept in the folder, if any.
     base, tip : str, optional
-        Links of a URDF.
+        Links of a URDF; by default those it was calibrated with.
     checksum : str, optional
         For the form ``ur``: the controller's.
 
@@ -85,6 +85,8 @@ def export_result(
     """
     calibrated = load_result(folder)
     description = _description(folder, arm)
+    if arm is None and base is None and tip is None:
+        base, tip = calibrated.base, calibrated.tip
     if form == "urdf" and description is not None and description.urdf_text is not None:
         return export_urdf(calibrated, description.urdf_text, str(description.path), base=base, tip=tip)
     placed = _placed(calibrated, description, base, tip)
