@@ -44,7 +44,7 @@ from circlepoint.plausibility import (
     unwrap_joints,
 )
 from circlepoint.quantities import Quantity, quantities
-from circlepoint.stamps import require_order, table_timeline
+from circlepoint.stamps import require_order, table_timeline, timeline_findings
 from circlepoint.tables import open_table
 
 if TYPE_CHECKING:
@@ -290,7 +290,7 @@ def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: Co
     )
     del stamps
     log = _read_log(table, names, thinned.data, arm, column_map, gravity=gravity)
-    notes = [Finding("timeline", f"{table.label}: {note}") for note in timeline.notes]
+    notes = timeline_findings(timeline, table.label)
     kept = [finding for finding in log.findings if finding.code not in {"timeline", "clipping"}]
     return replace(log, timeline=timeline, findings=[*notes, *thinned.findings, *kept])
 
@@ -317,7 +317,7 @@ def _read_log(
     require_order(table, names.time, data[names.time])
     timeline = table_timeline(table, time)
     findings = [*table.findings, *(Finding("columns", f"{source}: {note}") for note in names.notes)]
-    findings += [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
+    findings += timeline_findings(timeline, source)
     findings += time_findings(time, timeline.sample_rate, source, column_map)
     positions = force = None
     if names.joints:
