@@ -20,13 +20,22 @@ Units: m, rad, and per s. A prismatic joint's limits, velocity and acceleration 
 counts_per_revolution counts per metre.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
 
 from circlepoint._core import InvalidInput
 from circlepoint.yaml_io import Fields, describe, load_fields
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    FloatArray = NDArray[np.float64]
 
 JointType = Literal["revolute", "prismatic"]
 DhConvention = Literal["standard", "modified"]
@@ -34,7 +43,7 @@ DhConvention = Literal["standard", "modified"]
 _JOINT_KEYS = ("name", "type", "limits", "velocity", "acceleration")
 _JOINT_TYPES: dict[str, JointType] = {"revolute": "revolute", "prismatic": "prismatic"}
 _CONVENTIONS: dict[str, DhConvention] = {"standard": "standard", "modified": "modified"}
-_DH_PARAMETERS = ("a", "alpha", "d", "theta")
+DH_PARAMETERS = ("a", "alpha", "d", "theta")
 _COUNTS = "counts_per_revolution"
 _LINE_FIELDS = ("reference_configuration", "rows")
 _COUNTS_PER_METRE = "counts_per_metre"
@@ -46,6 +55,15 @@ LONGEST_LINK = 20.0
 
 
 @dataclass(frozen=True)
+class Mimic:
+    """That a joint has no encoder: its position is `multiplier` times that of the joint `joint`, plus `offset`."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True)
 class Joint:
     """One joint. Units: rad when revolute, m when prismatic."""
 
@@ -54,6 +72,7 @@ class Joint:
     limits: tuple[float, float] | None = None
     velocity: float | None = None
     acceleration: float | None = None
+    mimic: Mimic | None = None
 
     @property
     def revolute(self) -> bool:
@@ -120,6 +139,8 @@ class Arm:
         Counts per revolution (per metre when prismatic), one a joint, where known.
     lines : NominalLines or None
         Nominal axes, where these are known instead of parameters.
+    beside : tuple of Joint
+        Joints outside the arm that some of its joints mimic.
     """
 
     name: str
@@ -127,6 +148,54 @@ class Arm:
     dh: NominalDh | None = None
     encoder_counts: tuple[float | None, ...] | None = None
     lines: NominalLines | None = None
+    beside: tuple[Joint, ...] = ()
+
+    @property
+    def driven(self) -> Arm:
+        """The joints whose positions are recorded: those that mimic no other, and those beside that are mimicked."""
+        if all(joint.mimic is None for joint in self.joints):
+            return self
+        by_name = {joint.name: joint for joint in (*self.joints, *self.beside)}
+        names = dict.fromkeys(joint.mimic.joint if joint.mimic else joint.name for joint in self.joints)
+        counts = dict(zip(self.joint_names, self.encoder_counts, strict=True)) if self.encoder_counts else None
+        return Arm(
+            self.name,
+            tuple(by_name[name] for name in names),
+            encoder_counts=None if counts is None else tuple(counts.get(name) for name in names),
+        )
+
+    def follow(self, driven: FloatArray) -> FloatArray:
+        """Return the positions (N, n) of all joints where those that are driven have positions (N, k), rad or m."""
+        if all(joint.mimic is None for joint in self.joints):
+            return driven
+        names = self.driven.joint_names
+        mimics = [joint.mimic or Mimic(joint.name, 1.0, 0.0) for joint in self.joints]
+        return np.column_stack([driven[:, names.index(each.joint)] * each.multiplier + each.offset for each in mimics])
+
+    def lead(self, positions: FloatArray) -> FloatArray:
+        """Return the positions (N, k) of the joints that are driven where all have positions (N, n), rad or m."""
+        driven = self.driven
+        if driven is self:
+            return positions
+        columns = []
+        for name in driven.joint_names:
+            if name in self.joint_names:
+                columns.append(positions[:, self.joint_names.index(name)])
+            else:  # beside the arm: what follows it tells
+                index, mimic = next(
+                    (index, joint.mimic)
+                    for index, joint in enumerate(self.joints)
+                    if joint.mimic is not None and joint.mimic.joint == name
+                )
+                columns.append((positions[:, index] - mimic.offset) / mimic.multiplier)
+        return np.column_stack(columns)
+
+    def coupled(self, joint: int) -> tuple[str, ...]:
+        """Return the names of the other joints that one encoder moves together with a joint (0-based)."""
+        sources = [each.mimic.joint if each.mimic else each.name for each in self.joints]
+        return tuple(
+            each.name for index, each in enumerate(self.joints) if index != joint and sources[index] == sources[joint]
+        )
 
     @property
     def has_nominal(self) -> bool:
@@ -168,7 +237,7 @@ def load_arm(path: str | Path, *, base: str | None = None, tip: str | None = Non
         names file, line, field, value and remedy.
     """
     path = Path(path)
-    if _is_urdf(path):
+    if is_urdf(path):
         from circlepoint.urdf import read_urdf  # noqa: PLC0415  (an arm.yaml needs no XML)
 
         return read_urdf(path, base, tip)
@@ -190,7 +259,8 @@ def load_arm(path: str | Path, *, base: str | None = None, tip: str | None = Non
     )
 
 
-def _is_urdf(path: Path) -> bool:
+def is_urdf(path: Path) -> bool:
+    """Whether a file is a URDF and no ``arm.yaml``: by its name or, where that says nothing, by what is in it."""
     if path.suffix.lower() in {".urdf", ".xacro", ".xml"}:
         return True
     try:
@@ -242,7 +312,7 @@ def _limits(fields: Fields) -> tuple[float, float]:
 
 def _nominal_dh(fields: Fields, joints: int) -> NominalDh:
     convention = fields.choice("convention", _CONVENTIONS)
-    rows = tuple(_dh_row(row) for row in fields.each("rows", "a list with one row a joint", _DH_PARAMETERS))
+    rows = tuple(_dh_row(row) for row in fields.each("rows", "a list with one row a joint", DH_PARAMETERS))
     if len(rows) != joints:
         fields.fail("rows", f"has {len(rows)} rows for {joints} joints; one row a joint is needed")
     return NominalDh(convention, rows)

@@ -2,13 +2,12 @@
 
 A bag gives one table a topic: the positions of a ``sensor_msgs/JointState`` by joint name, whatever their order in the
 message, and linear acceleration and angular velocity of a ``sensor_msgs/Imu``. Time is the stamp in the messages'
-headers, in seconds from the bag's first; where these are not set, the time of logging, and a finding says so.
+headers, in seconds from the bag's first; where these are not set, the time of logging, and a finding says so. The bag
+is read once, from end to end; its rows are kept aside (`circlepoint.scratch`), so that a long one needs no memory.
 """
 
 from __future__ import annotations
 
-from array import array
-from collections import defaultdict
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -16,42 +15,116 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from circlepoint._core import InvalidInput
+from circlepoint.bag_messages import IMU, IMU_COLUMNS, JOINT_STATE, MessageDecoder
 from circlepoint.column_names import plain
 from circlepoint.findings import Finding
-from circlepoint.log_table import FloatArray, MemoryTable
+from circlepoint.log_table import MANY_ROWS, FloatArray
+from circlepoint.scratch import Scratch
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
+    from contextlib import ExitStack
     from pathlib import Path
 
+    from numpy.typing import NDArray
+
     from circlepoint.arm import Arm
+    from circlepoint.bag_messages import Rows
     from circlepoint.column_map import ColumnMap
 
 _MAGIC = (b"#ROSBAG V", b"SQLite format 3\0", b"\x89MCAP0\r\n")
 _SUFFIXES = (".bag", ".db3", ".mcap")
-_JOINT_STATE = "sensor_msgs/msg/JointState"
-_IMU = "sensor_msgs/msg/Imu"
-_KINDS = {_JOINT_STATE: ("joint", "sensor_msgs/JointState"), _IMU: ("imu", "sensor_msgs/Imu")}
-_IMU_COLUMNS = (
-    *(f"linear_acceleration.{axis}" for axis in "xyz"),
-    *(f"angular_velocity.{axis}" for axis in "xyz"),
-)
-_NOT_MEASURED = -1.0  # first element of an Imu's covariance: there is no such quantity
+_KINDS = {JOINT_STATE: ("joint", "sensor_msgs/JointState"), IMU: ("imu", "sensor_msgs/Imu")}
+_BATCH = 4096  # messages of a topic that are decoded at once
 
 
 @dataclass
 class _Stream:
-    """Messages of one kind as they are read: stamps in ns, values a message."""
+    """What was read of one kind of message: stamps of the headers and of the logging in ns, values."""
 
     columns: tuple[str, ...]
-    stamps: array[int] = field(default_factory=lambda: array("q"))
-    logged: array[int] = field(default_factory=lambda: array("q"))
-    values: array[float] = field(default_factory=lambda: array("d"))
+    scratch: Scratch
+    first: tuple[int, int] = (0, 0)  # stamp and time of logging
+    stamped: bool = False  # whether the headers' stamps differ at all
+    measured: set[str] = field(default_factory=set)  # columns with a value that is a number
+
+    @classmethod
+    def of(cls, columns: tuple[str, ...]) -> _Stream:
+        """Return a stream without rows."""
+        return cls(columns, Scratch(np.dtype([("stamp", "i8"), ("logged", "i8"), ("values", "f8", (len(columns),))])))
+
+    def add(self, rows: Rows, logged: NDArray[np.int64]) -> None:
+        """Add rows, logged at these times (K,), ns."""
+        if not self.scratch.rows:
+            self.first = int(rows.stamps[0]), int(logged[0])
+        self.stamped |= bool((rows.stamps != self.first[0]).any())
+        if len(self.measured) < len(self.columns):
+            self.measured |= {
+                name for name, column in zip(self.columns, rows.values.T, strict=True) if not np.isnan(column).all()
+            }
+        block = np.empty(rows.stamps.size, dtype=self.scratch.dtype)
+        block["stamp"], block["logged"], block["values"] = rows.stamps, logged, rows.values
+        self.scratch.append(block)
+
+
+@dataclass(frozen=True)
+class TopicTable:
+    """The rows of one topic of a bag.
+
+    Attributes
+    ----------
+    path : Path
+        The bag.
+    part : str
+        Which topic.
+    hint : str
+        What else the bag holds.
+    findings : tuple of Finding
+        What reading it has shown.
+    """
+
+    path: Path
+    part: str
+    hint: str
+    findings: tuple[Finding, ...]
+    _stream: _Stream = field(repr=False)
+    _stamp: str = field(repr=False)  # which stamp is the time
+    _origin: int = field(repr=False)  # ns, of t = 0
 
     @property
-    def has_header_stamps(self) -> bool:
-        """Whether the headers are stamped at all."""
-        return not self.stamps or (min(self.stamps) != max(self.stamps))
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns; angular velocity only where some was measured."""
+        names = self._stream.columns
+        return ("t", *(name for name in names if name in self._stream.measured or not name.startswith("angular")))
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+        return f"{self.path}, {self.part}"
+
+    @property
+    def long(self) -> bool:
+        """Whether it may be too long for memory."""
+        return self._stream.scratch.rows > MANY_ROWS
+
+    def error(self, message: str, row: int | None = None) -> InvalidInput:
+        """Return an InvalidInput about the topic, or about one of its messages (0-based)."""
+        return InvalidInput(f"{self.label}{'' if row is None else f', message {row + 1}'}: {message}")
+
+    def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
+        """Return columns (N,) by name."""
+        pieces = list(self.batches(names))
+        return {name: np.concatenate([np.empty(0), *(piece[name] for piece in pieces)]) for name in names}
+
+    def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
+        """Yield the same columns piece by piece, in order."""
+        for piece in self._stream.scratch.pieces():
+            yield {
+                name: (piece[self._stamp] - self._origin) / 1e9
+                if name == "t"
+                else np.ascontiguousarray(piece["values"][:, self._stream.columns.index(name)])
+                for name in names
+            }
 
 
 def is_bag(path: Path) -> bool:
@@ -67,8 +140,12 @@ def is_bag(path: Path) -> bool:
 
 
 def open_bag(
-    path: Path, arm: Arm, column_map: ColumnMap, joint_topic: str | None, imu_topic: str | None
-) -> list[MemoryTable]:
+    path: Path,
+    arm: Arm,
+    column_map: ColumnMap,
+    topics: tuple[str | None, str | None],
+    opened: ExitStack,
+) -> list[TopicTable]:
     """Read the joint states and the IMU of a bag.
 
     Parameters
@@ -79,12 +156,14 @@ def open_bag(
         Its joints' names say which of several joint states are meant.
     column_map : ColumnMap
         Its names for ``q`` are joint names here.
-    joint_topic, imu_topic : str or None
-        The topics, where there are several of a kind.
+    topics : (str or None, str or None)
+        The topics of joint states and of the IMU, where there are several of a kind.
+    opened : ExitStack
+        Closes what the tables keep aside, once they are not needed any more.
 
     Returns
     -------
-    list of MemoryTable
+    list of TopicTable
         Joints, sensor, or both.
 
     Raises
@@ -93,27 +172,32 @@ def open_bag(
         When the bag cannot be read or holds neither, or several of a kind and none was chosen; names the topics.
     """
     with _reading(path), _reader(path) as reader:
-        topics = {connection.topic: connection.msgtype for connection in reader.connections}
-        chosen = {
-            _JOINT_STATE: _choose(path, topics, _JOINT_STATE, joint_topic),
-            _IMU: _choose(path, topics, _IMU, imu_topic),
-        }
+        kinds = {connection.topic: connection.msgtype for connection in reader.connections}
+        chosen = {kind: _choose(path, kinds, kind, topic) for kind, topic in zip(_KINDS, topics, strict=True)}
         names = [name for group in chosen.values() for name in group]
         if not names:
             raise InvalidInput(
-                f"{path}: has no topic of type sensor_msgs/JointState or sensor_msgs/Imu; {_listed(topics)}"
+                f"{path}: has no topic of type sensor_msgs/JointState or sensor_msgs/Imu; {_listed(kinds)}"
             )
-        streams = _read_streams(reader, names)
+        streams = _read_streams(reader, names, opened)
     found: list[tuple[str, _Stream]] = []
-    if chosen[_JOINT_STATE]:
-        found.append(_joint_stream(path, streams, chosen[_JOINT_STATE], arm, column_map))
-    found += [(topic, stream) for topic in chosen[_IMU] for stream in streams[topic] or [_Stream(_IMU_COLUMNS)]]
-    unset = [topic for topic, stream in found if not stream.has_header_stamps]
-    for _, stream in found if unset else ():
-        stream.stamps = stream.logged
-    origin = min((stream.stamps[0] for _, stream in found if stream.stamps), default=0)
-    hint = _listed(topics)
-    return [_table(path, topic, stream, origin, hint, stamped=not unset) for topic, stream in found]
+    if chosen[JOINT_STATE]:
+        found.append(_joint_stream(path, streams, chosen[JOINT_STATE], arm, column_map))
+    found += [(topic, stream) for topic in chosen[IMU] for stream in streams[topic] or [_Stream.of(IMU_COLUMNS)]]
+    unset = any(not stream.stamped for _, stream in found if stream.scratch.rows > 1)
+    origin = min((stream.first[unset] for _, stream in found if stream.scratch.rows), default=0)
+    return [
+        TopicTable(
+            path,
+            f"topic {topic}",
+            _listed(kinds),
+            (_unstamped(path, topic),) if unset else (),
+            stream,
+            "logged" if unset else "stamp",
+            origin,
+        )
+        for topic, stream in found
+    ]
 
 
 @contextmanager
@@ -151,7 +235,7 @@ def _choose(path: Path, topics: dict[str, str], kind: str, wanted: str | None) -
                 f"{path}: --{option}-topic {wanted} is not a topic of type {name}{known}; {_listed(topics)}"
             )
         return [wanted]
-    if kind == _IMU and len(candidates) > 1:
+    if kind == IMU and len(candidates) > 1:
         raise InvalidInput(
             f"{path}: has {len(candidates)} topics of type {name}: {', '.join(candidates)}; choose the one on the "
             f"end-point by --{option}-topic, or `{option}_topic:` in a column map"
@@ -167,39 +251,46 @@ def _listed(topics: dict[str, str]) -> str:
     )
 
 
-def _read_streams(reader: Any, topics: list[str]) -> dict[str, list[_Stream]]:
+def _read_streams(reader: Any, topics: list[str], opened: ExitStack) -> dict[str, list[_Stream]]:
     """Read the messages of some topics, apart by their columns: several publishers may share a topic."""
-    streams: dict[str, dict[tuple[str, ...], _Stream]] = defaultdict(dict)
     connections = [connection for connection in reader.connections if connection.topic in topics]
-    for connection, logged, raw in reader.messages(connections=connections):
-        message = reader.deserialize(raw, connection.msgtype)
-        if connection.msgtype == _JOINT_STATE:
-            columns, values = _joint_values(message)
-        else:
-            columns, values = _IMU_COLUMNS, _imu_values(message)
-        if not columns:
-            continue
-        stream = streams[connection.topic].setdefault(columns, _Stream(columns))
-        stamp = message.header.stamp
-        stream.stamps.append(stamp.sec * 1_000_000_000 + stamp.nanosec)
-        stream.logged.append(logged)
-        stream.values.extend(values)
-    return {topic: list(streams[topic].values()) for topic in topics}
+    readings = {connection.topic: _Reading.of(reader, connection.msgtype, opened) for connection in connections}
+    for connection, logged, message in reader.messages(connections=connections) if connections else ():
+        reading = readings[connection.topic]
+        reading.messages.append(message)
+        reading.logged.append(logged)
+        if len(reading.messages) == _BATCH:
+            reading.flush()
+    for reading in readings.values():
+        reading.flush()
+    return {topic: list(readings[topic].streams.values()) for topic in topics}
 
 
-def _joint_values(message: Any) -> tuple[tuple[str, ...], list[float]]:
-    values = message.position.tolist()
-    names = tuple(message.name)
-    if not names:
-        names = tuple(f"position_{index}" for index in range(len(values)))
-    return (names, values) if len(names) == len(values) else ((), [])
+@dataclass
+class _Reading:
+    """The messages of one topic that were read and not yet decoded, and what was decoded."""
 
+    decoder: MessageDecoder
+    opened: ExitStack
+    messages: list[bytes] = field(default_factory=list)
+    logged: list[int] = field(default_factory=list)
+    streams: dict[tuple[str, ...], _Stream] = field(default_factory=dict)
 
-def _imu_values(message: Any) -> list[float]:
-    force, turn = message.linear_acceleration, message.angular_velocity
-    if message.angular_velocity_covariance[0] == _NOT_MEASURED:
-        return [force.x, force.y, force.z, np.nan, np.nan, np.nan]
-    return [force.x, force.y, force.z, turn.x, turn.y, turn.z]
+    @classmethod
+    def of(cls, reader: Any, msgtype: str, opened: ExitStack) -> _Reading:
+        """Return the reading of a topic of this type."""
+        return cls(MessageDecoder(msgtype, lambda raw: reader.deserialize(raw, msgtype), ros1=not reader.is2), opened)
+
+    def flush(self) -> None:
+        """Decode what was read."""
+        logged = np.array(self.logged, dtype=np.int64)
+        for rows in self.decoder.decode(self.messages):
+            if rows.columns not in self.streams:
+                self.streams[rows.columns] = _Stream.of(rows.columns)
+                self.opened.callback(self.streams[rows.columns].scratch.close)
+            self.streams[rows.columns].add(rows, logged[rows.order])
+        self.messages.clear()
+        self.logged.clear()
 
 
 def _joint_stream(
@@ -208,7 +299,7 @@ def _joint_stream(
     """Return the stream of joint states that holds the arm's joints."""
     candidates = [(topic, stream) for topic in topics for stream in streams[topic]]
     if not candidates:
-        return topics[0], _Stream(tuple(arm.joint_names))
+        return topics[0], _Stream.of(tuple(arm.joint_names))
     stated = {name for quantity, name in column_map.names.items() if quantity.startswith("q")}
     wanted = {plain(name) for name in stated or arm.joint_names}
     holding = [(topic, stream) for topic, stream in candidates if wanted <= {plain(name) for name in stream.columns}]
@@ -228,21 +319,9 @@ def _joint_stream(
     )
 
 
-def _table(path: Path, topic: str, stream: _Stream, origin: int, hint: str, *, stamped: bool) -> MemoryTable:
-    findings: list[Finding] = []
-    if not stamped:
-        findings.append(
-            Finding(
-                "stamps",
-                f"{path}, topic {topic}: stamps in the messages' headers are not set: the times of logging were taken, "
-                f"which come later and less evenly",
-            )
-        )
-    stamps = np.array(stream.stamps, dtype=np.int64)
-    values = np.array(stream.values).reshape(-1, len(stream.columns))
-    columns: dict[str, FloatArray] = {"t": (stamps - origin) / 1e9}
-    for index, name in enumerate(stream.columns):
-        column = np.ascontiguousarray(values[:, index])
-        if not (name.startswith("angular_velocity") and np.isnan(column).all()):
-            columns[name] = column
-    return MemoryTable(path, columns, "message", f"topic {topic}", hint, tuple(findings))
+def _unstamped(path: Path, topic: str) -> Finding:
+    return Finding(
+        "stamps",
+        f"{path}, topic {topic}: stamps in the messages' headers are not set: the times of logging were taken, which "
+        f"come later and less evenly",
+    )

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 import circlepoint
+from circlepoint.dh_rows import to_rows
 from circlepoint.nominal import joint_types, nominal_dh_chain
 from circlepoint.result_document import result_document
 from circlepoint.sensor_presets import load_sensor
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from circlepoint.arm import Arm
+    from circlepoint.dh_rows import DhConversion
     from circlepoint.document import Document
 
 Method = Literal["whole-arm", "joint", "position", "velocity"]
-DhConversion = circlepoint.StandardDhConversion | circlepoint.ModifiedDhConversion | circlepoint.HayatiConversion
 
 UNSPECIFIED_SENSOR = "generic"
 """Preset taken when nothing is said of the sensor; the dwells then set how wide its figures are."""
@@ -31,9 +31,6 @@ UNSPECIFIED_SENSOR = "generic"
 CLOCK_OFFSET_STD = 0.05
 """s; what the alignment of two clocks by the arm's activity may be off."""
 CLOCK_RATE_STD = 1e-3
-
-NEAR_PARALLEL = 0.05
-"""rad; a Denavit-Hartenberg row between axes that enclose an angle magnifies their errors by one over its sine."""
 
 
 @dataclass(frozen=True)
@@ -181,7 +178,7 @@ def calibrate(
             recording, segmentation, _options(arm, method, sensor, gravity, reference_configuration)
         )
     chain = joints.chain() if joints.complete() else None
-    dh = _to_dh(chain, arm)
+    dh = None if chain is None else to_rows(chain, nominal_dh_chain(arm))
     document = result_document(
         arm, method=method, gravity=gravity, segmentation=segmentation, joints=joints, chain=chain, dh=dh
     )
@@ -245,21 +242,3 @@ def _set_encoders(
         options.encoder_resolution = np.array(steps, dtype=float)
     if reference_configuration is not None:
         options.reference_configuration = np.asarray(reference_configuration, dtype=float)
-
-
-def _to_dh(chain: circlepoint.ScrewChain | None, arm: Arm) -> DhConversion | None:
-    if chain is None:
-        return None
-    nominal = nominal_dh_chain(arm)
-    if _near_parallel(chain):
-        return circlepoint.to_hayati(
-            chain, nominal if isinstance(nominal, circlepoint.StandardDhChain) else None, NEAR_PARALLEL
-        )
-    if isinstance(nominal, circlepoint.ModifiedDhChain):
-        return circlepoint.to_modified_dh(chain, nominal)
-    return circlepoint.to_standard_dh(chain, nominal)
-
-
-def _near_parallel(chain: circlepoint.ScrewChain) -> bool:
-    directions = [axis.line.direction for axis in chain.axes]
-    return any(np.linalg.norm(np.cross(one, other)) < np.sin(NEAR_PARALLEL) for one, other in pairwise(directions))

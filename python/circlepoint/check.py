@@ -7,13 +7,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import circlepoint
 from circlepoint._core import STANDARD_GRAVITY
 from circlepoint.findings import Finding
+from circlepoint.motion_content import (
+    SHORT_TRAVEL,
+    GravityMotion,
+    JointMotion,
+    JointStatus,
+    gravity_motion,
+    joint_motions,
+    judge_gravity,
+    judge_motion,
+)
 from circlepoint.nominal import joint_types
 
 if TYPE_CHECKING:
@@ -28,16 +38,12 @@ MIN_DWELLS = 4
 """Rests a joint's direction is well seen with."""
 MIN_DWELL_SPAN = 0.5
 """rad: the range those rests should cover."""
-MIN_MOTION_SPAN = {"revolute": 0.2, "prismatic": 0.05}
-"""rad or m: the travel a motion should have."""
 MIN_SLIDING_ACCELERATION = 0.2
 """m/s^2: the peak acceleration a sliding joint's motion should have; it alone shows the direction."""
 GRAVITY_TOLERANCE = 0.05
 """Relative deviation of what the sensor reads at rest that is worth a word."""
 MIN_GRAVITY_SHARE = 0.1
 """Part of gravity across the axis, below which the rests say little about its direction."""
-
-JointStatus = Literal["good", "weak", "missing"]
 
 
 @dataclass(frozen=True)
@@ -65,9 +71,14 @@ class JointCheck:
     gravity_share : float or None
         Part of gravity across the axis, from the rests; None where they cannot tell.
     status : str
-        ``"good"``, ``"weak"`` (can be calibrated, badly) or ``"missing"`` (cannot).
+        By its own tests, as the methods joint by joint need them: ``"good"``, ``"weak"`` (can be calibrated, badly) or
+        ``"missing"`` (cannot).
     advice : str
-        What to record next; empty when nothing is needed.
+        What to record next for these; empty when nothing is needed.
+    motion : JointMotion
+        How it moved at all.
+    whole_arm, whole_arm_advice : str
+        The same for the estimate of the whole arm, which takes any motion.
     """
 
     joint: Joint
@@ -83,6 +94,9 @@ class JointCheck:
     gravity_share: float | None
     status: JointStatus
     advice: str
+    motion: JointMotion
+    whole_arm: JointStatus
+    whole_arm_advice: str
 
 
 @dataclass(frozen=True)
@@ -105,6 +119,10 @@ class LogCheck:
         m/s^2; largest absolute reading of a channel.
     gravity : float
         m/s^2; what the magnitude should be.
+    gravity_motion : GravityMotion or None
+        How far gravity turned in the sensor's frame; None where there is too little to say.
+    gravity_status, gravity_advice : str
+        Whether that is enough, and what to record.
     findings : tuple of Finding
         What is suspicious.
     """
@@ -117,11 +135,19 @@ class LogCheck:
     rest_noise: float | None
     largest_force: float
     gravity: float
+    gravity_motion: GravityMotion | None
+    gravity_status: JointStatus
+    gravity_advice: str
     findings: tuple[Finding, ...]
 
     @property
     def ready(self) -> bool:
-        """Whether every joint can be calibrated, joint by joint."""
+        """Whether the whole arm can be estimated, as far as its motion tells."""
+        return self.gravity_status != "missing" and all(joint.whole_arm != "missing" for joint in self.joints)
+
+    @property
+    def ready_alone(self) -> bool:
+        """Whether every joint can be calibrated by tests of its own."""
         return all(joint.status != "missing" for joint in self.joints)
 
 
@@ -148,10 +174,13 @@ def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STAND
     noise = np.array([dwell.specific_force_std for dwell in segmentation.dwells])
     magnitudes = np.linalg.norm(forces, axis=1)
     magnitude = float(magnitudes.mean()) if magnitudes.size else None
+    turned = gravity_motion(loaded.recording)
+    status, advice = judge_gravity(turned)
     return LogCheck(
         loaded=loaded,
         joints=tuple(
-            _check_joint(loaded, segmentation, joint, index, gravity) for index, joint in enumerate(arm.joints)
+            _check_joint(loaded, segmentation, arm, index, motion=motion, gravity=gravity)
+            for index, motion in enumerate(joint_motions(loaded.recording))
         ),
         rests=len(segmentation.dwells),
         rest_magnitude=magnitude,
@@ -159,6 +188,9 @@ def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STAND
         rest_noise=float(np.median(noise)) if noise.size else None,
         largest_force=float(np.abs(loaded.recording.specific_force).max()),
         gravity=gravity,
+        gravity_motion=turned,
+        gravity_status=status,
+        gravity_advice=advice,
         findings=(*loaded.findings, *_gravity_findings(magnitude, gravity)),
     )
 
@@ -176,8 +208,20 @@ def _gravity_findings(magnitude: float | None, gravity: float) -> list[Finding]:
 
 
 def _check_joint(
-    loaded: LoadedRecording, segmentation: circlepoint.Segmentation, joint: Joint, index: int, gravity: float
+    loaded: LoadedRecording,
+    segmentation: circlepoint.Segmentation,
+    arm: Arm,
+    index: int,
+    *,
+    motion: JointMotion,
+    gravity: float,
 ) -> JointCheck:
+    joint = arm.joints[index]
+    coupled = arm.coupled(index)
+    together = all(arm.joint_names[other] in coupled for other in motion.in_step)
+    whole_arm, whole_arm_advice = judge_motion(joint, motion, together=together)
+    if any(index in file.beyond for file in loaded.files):
+        whole_arm, whole_arm_advice = "missing", "it does not move the sensor: put one beyond it"
     tests = [test for test in segmentation.tests if test.joint == index]
     motions = [segmentation.motions[i] for test in tests for i in test.motions]
     dwell_span = max((test.dwell_span for test in tests), default=0.0)
@@ -190,6 +234,8 @@ def _check_joint(
         )
     else:
         status, advice = _judge_sliding(joint, motions)
+    if coupled and status == "missing":
+        advice = f"{', '.join(coupled)} and it move together (mimic): only calibrate --method whole-arm takes them"
     return JointCheck(
         joint=joint,
         tests=len(tests),
@@ -204,6 +250,9 @@ def _check_joint(
         gravity_share=share,
         status=status,
         advice=advice,
+        motion=motion,
+        whole_arm=whole_arm,
+        whole_arm_advice=whole_arm_advice,
     )
 
 
@@ -211,14 +260,14 @@ def _judge(
     joint: Joint, *, dwells: int, dwell_span: float, motions: int, motion_span: float, share: float | None
 ) -> tuple[JointStatus, str]:
     """Return the verdict on one joint, and what to record next."""
-    rests_over, strokes_over = 3 * MIN_DWELL_SPAN, 3 * MIN_MOTION_SPAN[joint.type]
+    rests_over, strokes_over = 3 * MIN_DWELL_SPAN, 3 * SHORT_TRAVEL[joint.type]
     rests = f"let it rest at {MIN_DWELLS} or more positions over {_travel(joint, rests_over)} or more, 1 s each"
     strokes = f"move it alone to and fro over {_travel(joint, strokes_over)} or more, briskly, for 5 s or more"
     if motions == 0 and dwells < 2:
         return "missing", f"no test of it alone: with the others still, {rests}; then {strokes}"
     if motions == 0:
         return "missing", f"rests only, and they do not show where the axis is: {strokes}"
-    if motion_span < MIN_MOTION_SPAN[joint.type]:
+    if motion_span < SHORT_TRAVEL[joint.type]:
         return "weak", f"its motions are short ({_travel(joint, motion_span)}): {strokes}"
     if dwells < MIN_DWELLS or dwell_span < MIN_DWELL_SPAN:
         return "weak", f"few rests ({dwells} over {_travel(joint, dwell_span)}): {rests}"
@@ -233,12 +282,12 @@ def _judge(
 
 def _judge_sliding(joint: Joint, motions: Sequence[circlepoint.SingleJointMotion]) -> tuple[JointStatus, str]:
     """Return the verdict on one prismatic joint: rests show nothing of it, its acceleration shows all."""
-    strokes_over = 3 * MIN_MOTION_SPAN[joint.type]
+    strokes_over = 3 * SHORT_TRAVEL[joint.type]
     strokes = f"move it alone to and fro over {_travel(joint, strokes_over)} or more, briskly (0.5 Hz), for 5 s or more"
     if not motions:
         return "missing", f"no motion of it alone: with the others still, {strokes}"
     span = max(motion.travel for motion in motions)
-    if span < MIN_MOTION_SPAN[joint.type]:
+    if span < SHORT_TRAVEL[joint.type]:
         return "weak", f"its motions are short ({_travel(joint, span)}): {strokes}"
     # Of a sinusoid of this speed and travel.
     acceleration = max(2 * motion.peak_velocity**2 / motion.travel for motion in motions)

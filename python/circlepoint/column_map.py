@@ -10,6 +10,7 @@ specific force            ``ax, ay, az``; ``accel_x..``; ``linear_acceleration.x
 angular velocity          ``gx, gy, gz``; ``wx..``; ``gyro_x..``; ``angular_velocity_x..`` (optional)
 temperature               ``temp``, ``temperature`` (optional)
 the sensor's own time     ``t_sensor``, ``imu_time``, ``hwt`` (optional: joints and sensor then have two clocks)
+an arm of modules         ``q1, a1x.., w1x.., hwt1, q2 ..``: a joint, a sensor and a clock each, as HEBI's record them
 ========================  =======================================================================================
 
 Other names and units are given by a column map (``--columns map.yaml``)::
@@ -49,6 +50,7 @@ from circlepoint.column_names import (
     joint_families,
     joints_behind_prefix,
 )
+from circlepoint.modules import module_columns
 from circlepoint.yaml_io import YamlFile, describe, load_yaml
 
 if TYPE_CHECKING:
@@ -122,7 +124,8 @@ class ColumnMap:
 class FileColumns:
     """The columns of one file by meaning; None where the file has no such quantity.
 
-    `units` are those written into the columns' names, by quantity as in a column map.
+    `units` are those written into the columns' names, by quantity as in a column map; `notes` say which of several
+    columns were taken, and why; `beyond` are the joints (0-based) that do not move the sensor.
     """
 
     time: str
@@ -132,6 +135,8 @@ class FileColumns:
     temperature: str | None
     sensor_time: str | None = None
     units: dict[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    beyond: tuple[int, ...] = ()
 
     @property
     def joint_half(self) -> FileColumns:
@@ -227,7 +232,19 @@ def find_columns(table: LogTable, arm: Arm, column_map: ColumnMap) -> FileColumn
         When time is missing, neither joints nor specific force are there, joints are incomplete or more than the arm
         has, several sensors are there, or a name that is used appears twice.
     """
-    search = _Search(table, ColumnNames(table.columns), column_map)
+    names = ColumnNames(table.columns)
+    if not column_map.names and (modules := module_columns(names, arm)):
+        time = modules.time or next((found[0] for name in TIME_NAMES if (found := names.find(name, "t"))), "")
+        return FileColumns(
+            time,
+            modules.joints,
+            modules.specific_force,
+            modules.angular_velocity,
+            None,
+            notes=modules.notes,
+            beyond=modules.beyond,
+        )
+    search = _Search(table, names, column_map)
     force = search.three("a", ACCELERATION_FAMILIES)
     if any(force) and not all(force):
         axis = AXES[force.index(None)]

@@ -30,9 +30,6 @@ SCHEMA_NAME = "circlepoint/calibration/1"
 
 Document = dict[str, Any]
 
-DH_PARAMETERS = ("a", "alpha", "d", "theta")
-HAYATI_PARAMETERS = (*DH_PARAMETERS, "beta")
-
 
 def load_schema() -> Document:
     """Return the JSON Schema (draft 2020-12) of ``calibration.json``."""
@@ -53,19 +50,22 @@ def estimate_entry(estimate: ArrayLike | None, std: ArrayLike | None) -> Documen
     return {"estimate": plain(estimate), "std": plain(std)}
 
 
-def dh_row_entry(values: Mapping[str, float], stds: Sequence[float | None], free: Sequence[bool]) -> Document:
+def dh_row_entry(values: Mapping[str, float], stds: ArrayLike, free: ArrayLike) -> Document:
     """Return a row of Denavit-Hartenberg or Hayati parameters.
 
     Parameters
     ----------
     values : mapping
         a, alpha, d, theta and, of a Hayati row, beta; m and rad.
-    stds : sequence of (float or None)
-        Their standard deviations; None where there is none.
-    free : sequence of bool
+    stds : array_like
+        Their standard deviations; NaN where there is none.
+    free : array_like of bool
         Whether each is a choice that only places the base or the tool.
     """
-    spread: list[float | str | None] = ["free" if choice else std for std, choice in zip(stds, free, strict=True)]
+    spread: list[float | str | None] = [
+        "free" if choice else None if np.isnan(std) else float(std)
+        for std, choice in zip(np.asarray(stds, dtype=float), np.asarray(free, dtype=bool), strict=True)
+    ]
     return {**{name: float(value) for name, value in values.items()}, "std": dict(zip(values, spread, strict=True))}
 
 
@@ -127,6 +127,11 @@ def missing_joint_entry(name: str, joint_type: str, reason: str, tests: Sequence
         ("direction_sensor", "direction_std", "point_sensor", "point_std", "covariance", "covariance_basis")
     )
     return {"name": name, "type": joint_type, **line, "reason": reason, "tests": plain(list(tests))}
+
+
+def with_description(document: Mapping[str, Any], path: Path, base: str | None, tip: str | None) -> Document:
+    """Return the document with the arm's description it was made with: a file, and links of a URDF."""
+    return {**document, "description": {"file": path.name, "base": base, "tip": tip}}
 
 
 def with_reading(document: Mapping[str, Any], loaded: LoadedRecording) -> Document:

@@ -1,6 +1,9 @@
 """What is suspicious but legal: said, never silently repaired and never fatal."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+_GAPS_SHOWN = 3
 
 
 @dataclass(frozen=True)
@@ -20,3 +23,13 @@ class Finding:
     code: str
     message: str
     joint: str | None = None
+
+
+def few_gaps(messages: Sequence[str]) -> list[str]:
+    """Return messages with the first gaps only: a screen is for what matters."""
+    gaps = [message for message in messages if ": a gap of " in message]
+    if len(gaps) <= _GAPS_SHOWN:
+        return list(messages)
+    left_out = set(gaps[_GAPS_SHOWN:])
+    more = f"{len(gaps) - _GAPS_SHOWN} more gaps (--json lists all)"
+    return [*(message for message in messages if message not in left_out), more]

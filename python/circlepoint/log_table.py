@@ -1,28 +1,31 @@
 """What a log looks like to its reader: named columns of numbers, and the place of each row for messages.
 
-A file of rows (`circlepoint.tables`), a topic of a bag (`circlepoint.bags`) and arrays in memory are read alike.
+A file of rows (`circlepoint.tables`), a topic of a bag (`circlepoint.bags`) and arrays in memory
+(`circlepoint.arrays`) are read alike.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import itertools
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from circlepoint._core import InvalidInput
-
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
+    from circlepoint._core import InvalidInput
     from circlepoint.findings import Finding
 
 FloatArray = NDArray[np.float64]
 
 MANY_ROWS = 1_500_000
 """Rows above which a log is thinned out while it is read (`circlepoint.long_logs`)."""
+PIECE_ROWS = 1 << 17
+"""Rows of a piece of a log."""
 
 
 class LogTable(Protocol):
@@ -67,67 +70,19 @@ class LogTable(Protocol):
 
 
 @dataclass(frozen=True)
-class MemoryTable:
-    """Columns in memory.
+class RowsWith:
+    """The rows of a table that hold some of its columns: those of one of the two rates a log can have.
 
     Attributes
     ----------
-    path : Path
-        The file they came from, or a name for arrays.
-    values : mapping of str to ndarray
-        Columns (N,) by name.
-    row : str
-        What a row is called in messages: ``"row"``, ``"message"``.
-    part : str
-        Which part of the file they are, such as a topic.
-    hint : str
-        What else the file holds.
-    findings : tuple of Finding
-        What taking them out of the file has shown.
+    table : LogTable
+        The log.
+    group : tuple of str
+        Rows in which all of these are empty belong to the other rate.
     """
 
-    path: Path
-    values: Mapping[str, FloatArray] = field(repr=False)
-    row: str = "row"
-    part: str = ""
-    hint: str = ""
-    findings: tuple[Finding, ...] = ()
-
-    @property
-    def long(self) -> bool:
-        """Whether it may be too long for memory."""
-        return next((values.size for values in self.values.values()), 0) > MANY_ROWS
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the columns."""
-        return tuple(self.values)
-
-    @property
-    def label(self) -> str:
-        """What messages call it."""
-        return f"{self.path}{self.part and ', ' + self.part}"
-
-    def error(self, message: str, row: int | None = None) -> InvalidInput:
-        """Return an InvalidInput about the table, or about one of its rows (0-based)."""
-        return InvalidInput(f"{self.label}{'' if row is None else f', {self.row} {row + 1}'}: {message}")
-
-    def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
-        """Return columns (N,) by name."""
-        return {name: self.values[name] for name in names}
-
-    def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
-        """Yield the columns as one piece."""
-        yield self.read(names)
-
-
-@dataclass(frozen=True)
-class SelectedRows:
-    """Some rows of a table: those of one of the two rates that a log of joints and sensor can have."""
-
     table: LogTable
-    values: Mapping[str, FloatArray] = field(repr=False)
-    rows: NDArray[np.intp] = field(repr=False)
+    group: tuple[str, ...]
 
     @property
     def path(self) -> Path:
@@ -137,7 +92,7 @@ class SelectedRows:
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns."""
-        return tuple(self.values)
+        return self.table.columns
 
     @property
     def label(self) -> str:
@@ -156,8 +111,8 @@ class SelectedRows:
 
     @property
     def long(self) -> bool:
-        """Whether the table may be too long for memory: its rows have been read."""
-        return False
+        """Whether the table may be too long for memory."""
+        return self.table.long
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -166,15 +121,35 @@ class SelectedRows:
 
     def error(self, message: str, row: int | None = None) -> InvalidInput:
         """Return an InvalidInput about the table, or about one of these rows (0-based)."""
-        return self.table.error(message, None if row is None else int(self.rows[row]))
+        if row is not None:
+            row = next(itertools.islice(self._rows(), row, None), row)
+        return self.table.error(message, row)
 
     def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
         """Return columns (N,) by name."""
-        return {name: self.values[name][self.rows] for name in names}
+        pieces = list(self.batches(names))
+        return {name: np.concatenate([np.empty(0), *(piece[name] for piece in pieces)]) for name in names}
 
     def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
-        """Yield the columns as one piece."""
-        yield self.read(names)
+        """Yield the same columns piece by piece, in order."""
+        for piece in self.table.batches(list(dict.fromkeys([*names, *self.group]))):
+            there = ~empty_rows(piece, self.group)
+            if there.any():
+                yield {name: piece[name][there] for name in names}
+
+    def _rows(self) -> Iterator[int]:
+        """Yield which row of the table each of these rows is."""
+        first = 0
+        for piece in self.table.batches(self.group):
+            empty = empty_rows(piece, self.group)
+            yield from (first + np.flatnonzero(~empty)).tolist()
+            first += empty.size
+
+
+def empty_rows(piece: Mapping[str, FloatArray], group: Sequence[str]) -> NDArray[np.bool_]:
+    """Say in which rows all columns of a group are empty."""
+    empty: NDArray[np.bool_] = np.logical_and.reduce([np.isnan(piece[name]) for name in group])
+    return empty
 
 
 def require_finite(table: LogTable, name: str, values: FloatArray, first_row: int = 0) -> None:

@@ -8,6 +8,7 @@ Several recordings become one, in the order given.
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,7 +33,7 @@ from circlepoint.column_map import (
     missing_specific_force,
 )
 from circlepoint.findings import Finding
-from circlepoint.log_table import LogTable, SelectedRows, require_finite
+from circlepoint.log_table import LogTable, RowsWith, empty_rows, require_finite
 from circlepoint.long_logs import gap_options, read_column, thin, thinning_factor
 from circlepoint.plausibility import (
     encoder_findings,
@@ -43,7 +44,7 @@ from circlepoint.plausibility import (
     unwrap_joints,
 )
 from circlepoint.quantities import Quantity, quantities
-from circlepoint.stamps import require_order, table_timeline
+from circlepoint.stamps import require_order, table_timeline, timeline_findings
 from circlepoint.tables import open_table
 
 if TYPE_CHECKING:
@@ -77,6 +78,8 @@ class LogFile:
         Rate, jitter and gaps of its stamps.
     quantities : tuple of Quantity
         What its columns were taken for.
+    beyond : tuple of int
+        Joints (0-based) that are known not to move the sensor.
     """
 
     path: Path
@@ -86,6 +89,7 @@ class LogFile:
     sensor: bool
     timeline: circlepoint.TimelineReport
     quantities: tuple[Quantity, ...]
+    beyond: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -154,28 +158,32 @@ def read_recording(
     for index, path in enumerate(files):
         if path in files[:index]:
             raise InvalidInput(f"{path}: was given twice; give each file once")
-    column_map = load_column_map(columns, arm) if columns is not None else ColumnMap()
+    column_map = load_column_map(columns, arm.driven) if columns is not None else ColumnMap()
     topics = (joint_topic or column_map.joint_topic, imu_topic or column_map.imu_topic)
-    tables: list[LogTable] = []
-    for path in files:
-        tables += open_bag(path, arm, column_map, *topics) if is_bag(path) else [open_table(path)]
     if any(topics) and not any(is_bag(path) for path in files):
         raise InvalidInput(f"{files[0]}: is not a bag; joint and IMU topics are for bags only")
-    return read_tables(tables, arm, column_map, gravity=gravity)
+    tables: list[LogTable] = []
+    with ExitStack() as opened:
+        for path in files:
+            tables += open_bag(path, arm.driven, column_map, topics, opened) if is_bag(path) else [open_table(path)]
+        return read_tables(tables, arm, column_map, gravity=gravity)
 
 
 def read_tables(
     tables: Sequence[LogTable], arm: Arm, column_map: ColumnMap, *, gravity: float = STANDARD_GRAVITY
 ) -> LoadedRecording:
     """Make one recording of tables that were opened; see `read_recording`."""
+    driven = arm.driven
     _require_stated_columns(tables, column_map)
-    found = [find_columns(table, arm, column_map) for table in tables]
-    _require_both_halves(tables, found, arm)
+    found = [find_columns(table, driven, column_map) for table in tables]
+    _require_both_halves(tables, found, driven)
     logs = [
         log
         for table, names in zip(tables, found, strict=True)
-        for log in _read_logs(table, names, arm, column_map, gravity)
+        for log in _read_logs(table, names, driven, column_map, gravity)
     ]
+    files = tuple(_describe(log, driven) for log in logs)
+    logs = [_following(log, arm) for log in logs]
     assembly = assemble(logs)
     recordings = assembly.recordings
     recording = recordings[0] if len(recordings) == 1 else circlepoint.concatenate(recordings)
@@ -183,7 +191,7 @@ def read_tables(
     findings = [finding for log in logs for finding in log.findings]
     return LoadedRecording(
         recording=recording,
-        files=tuple(_describe(log, arm) for log in logs),
+        files=files,
         clock_alignments=tuple(assembly.alignments),
         encoder_steps=steps,
         findings=(*findings, *assembly.findings, *encoder_findings(steps, arm)),
@@ -214,25 +222,48 @@ def _require_both_halves(tables: Sequence[LogTable], found: Sequence[FileColumns
         )
 
 
+def _following(log: Log, arm: Arm) -> Log:
+    """Return a log with the positions of the joints that mimic others beside those that were recorded."""
+    if log.joint_positions is None:
+        return log
+    return replace(log, joint_positions=arm.follow(log.joint_positions))
+
+
 def _paths(tables: Iterable[LogTable]) -> str:
     return ", ".join(table.label for table in tables)
 
 
 def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Iterator[Log]:
     """Yield the log in a table, or the two of different rates or clocks."""
-    if table.long and not (names.joints and names.specific_force and names.sensor_time):
-        yield _read_long_log(table, names, arm, column_map, gravity)
-        return
-    data = table.read(names.used)
+    data = None if table.long else table.read(names.used)
     halves: list[tuple[LogTable, FileColumns]] = [(table, names)]
     if names.joints and names.specific_force:
-        halves = _two_rates(table, names, data) or halves
-        if names.sensor_time and len(halves) == 1:
+        pieces = table.batches([*names.joints, *names.specific_force]) if data is None else [data]
+        if _have_two_rates(pieces, names.joints, names.specific_force):
+            halves = [
+                (RowsWith(table, names.joints), names.joint_half),
+                (RowsWith(table, names.specific_force), names.sensor_half),
+            ]
+        elif names.sensor_time:
             halves = [(table, names.joint_half), (table, names.sensor_half)]
     claimed = bool(table.part) or (len(halves) == 2 and not names.sensor_time)
     for half, columns in halves:
-        values = half.read(columns.used) if half is not table else data
-        yield replace(_read_log(half, columns, values, arm, column_map, gravity=gravity), one_clock=claimed)
+        if half.long:
+            log = _read_long_log(half, columns, arm, column_map, gravity)
+        else:
+            values = data if half is table and data is not None else half.read(columns.used)
+            log = _read_log(half, columns, values, arm, column_map, gravity=gravity)
+        yield replace(log, one_clock=claimed)
+
+
+def _have_two_rates(pieces: Iterable[dict[str, FloatArray]], joints: tuple[str, ...], force: tuple[str, ...]) -> bool:
+    """Whether many rows of a log have no joints, or no sensor."""
+    rows = 0
+    empty = np.zeros(2, dtype=int)
+    for piece in pieces:
+        rows += piece[joints[0]].size
+        empty += [np.count_nonzero(empty_rows(piece, group)) for group in (joints, force)]
+    return rows >= MIN_SAMPLES and bool(empty.max() >= MIN_SHARE * rows)
 
 
 def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: ColumnMap, gravity: float) -> Log:
@@ -259,23 +290,9 @@ def _read_long_log(table: LogTable, names: FileColumns, arm: Arm, column_map: Co
     )
     del stamps
     log = _read_log(table, names, thinned.data, arm, column_map, gravity=gravity)
-    notes = [Finding("timeline", f"{table.label}: {note}") for note in timeline.notes]
+    notes = timeline_findings(timeline, table.label)
     kept = [finding for finding in log.findings if finding.code not in {"timeline", "clipping"}]
     return replace(log, timeline=timeline, findings=[*notes, *thinned.findings, *kept])
-
-
-def _two_rates(
-    table: LogTable, names: FileColumns, data: dict[str, FloatArray]
-) -> list[tuple[LogTable, FileColumns]] | None:
-    """Return the rows of joints and the rows of the sensor, where one log holds two rates; None where it does not."""
-    joints, sensor = (
-        np.logical_and.reduce([np.isnan(data[name]) for name in group])
-        for group in (names.joints or (), names.specific_force or ())
-    )
-    if data[names.time].size < MIN_SAMPLES or max(joints.mean(), sensor.mean()) < MIN_SHARE:
-        return None
-    halves = ((~joints, names.joint_half), (~sensor, names.sensor_half))
-    return [(SelectedRows(table, data, np.flatnonzero(rows)), columns) for rows, columns in halves]
 
 
 def _read_log(
@@ -299,8 +316,8 @@ def _read_log(
     time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
     require_order(table, names.time, data[names.time])
     timeline = table_timeline(table, time)
-    findings = list(table.findings)
-    findings += [Finding("timeline", f"{source}: {note}") for note in timeline.notes]
+    findings = [*table.findings, *(Finding("columns", f"{source}: {note}") for note in names.notes)]
+    findings += timeline_findings(timeline, source)
     findings += time_findings(time, timeline.sample_rate, source, column_map)
     positions = force = None
     if names.joints:
@@ -373,4 +390,5 @@ def _describe(log: Log, arm: Arm) -> LogFile:
         sensor=log.specific_force is not None,
         timeline=log.timeline,
         quantities=quantities(log, arm),
+        beyond=log.columns.beyond,
     )

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import circlepoint
+from circlepoint.coupling import mimic_entries, said_of
+from circlepoint.dh_rows import row_parameters, row_std
 from circlepoint.document import (
-    DH_PARAMETERS,
-    HAYATI_PARAMETERS,
     SCHEMA_NAME,
     Document,
     dh_row_entry,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from circlepoint.arm import Arm
-    from circlepoint.calibration import DhConversion
+    from circlepoint.dh_rows import DhConversion
 
 LINE_COORDINATES = ("d1", "d2", "p1", "p2")
 WORKSPACE_CONFIGURATIONS = 200
@@ -80,6 +80,7 @@ def result_document(
         "fit": _fit_entry(joints),
         "end_point": _end_point_entry(arm, chain, joints),
         "findings": finding_entries(_acceleration_findings(arm, method, joints)),
+        **({"mimics": mimics} if (mimics := mimic_entries(arm)) else {}),
     }
 
 
@@ -96,7 +97,9 @@ def _joint_entries(
             if test.joint == estimate.joint
         ]
         if estimate.axis is None:
-            entries.append(missing_joint_entry(joint.name, joint.type, estimate.reason, tests))
+            entries.append(
+                missing_joint_entry(joint.name, joint.type, said_of(arm, estimate.reason, estimate.joint), tests)
+            )
             continue
         line = estimate.axis.screw.line
         entries.append(
@@ -231,20 +234,11 @@ def _dh_entry(
     if chain is None or dh is None:
         return None
     hayati = isinstance(dh, circlepoint.HayatiConversion)
-    names = HAYATI_PARAMETERS if hayati else DH_PARAMETERS
-    jacobian = (
-        circlepoint.hayati_parameter_jacobian(chain, dh)
-        if isinstance(dh, circlepoint.HayatiConversion)
-        else circlepoint.dh_parameter_jacobian(chain, dh)
-    )
-    variance = np.einsum("ij,jk,ik->i", jacobian, joints.covariance, jacobian).reshape(-1, len(names))
+    names = row_parameters(dh)
+    stds = row_std(chain, dh, joints.covariance)
     rows = [
-        dh_row_entry(
-            {name: getattr(row, name) for name in names},
-            [None if np.isnan(v) else float(np.sqrt(max(v, 0.0))) for v in variances],
-            free,
-        )
-        for row, variances, free in zip(dh.chain.rows, variance, np.asarray(dh.free, dtype=bool).tolist(), strict=True)
+        dh_row_entry({name: getattr(row, name) for name in names}, std, free)
+        for row, std, free in zip(dh.chain.rows, stds, np.asarray(dh.free, dtype=bool).tolist(), strict=True)
     ]
     if isinstance(dh, circlepoint.HayatiConversion):
         for entry, row in zip(rows, dh.chain.rows, strict=True):
@@ -275,7 +269,7 @@ def _covariance_entry(arm: Arm, joints: circlepoint.JointCalibration, estimated:
 def _identifiability_entry(arm: Arm, joints: circlepoint.JointCalibration) -> Document:
     conditions = [fit.condition_number for fit in joints.fits if fit.condition_number > 0.0]
     missing = [
-        f"{joint.name} line: {estimate.reason}"
+        f"{joint.name} line: {said_of(arm, estimate.reason, estimate.joint)}"
         for joint, estimate in zip(arm.joints, joints.joints, strict=True)
         if estimate.axis is None
     ]
@@ -283,7 +277,7 @@ def _identifiability_entry(arm: Arm, joints: circlepoint.JointCalibration) -> Do
         "rank": sum(fit.rank for fit in joints.fits),
         "parameters": sum(fit.parameters for fit in joints.fits),
         "condition_number": _condition(max(conditions)) if conditions else None,
-        "unseen": [*joints.unseen, *missing],
+        "unseen": [*(said_of(arm, combination) for combination in joints.unseen), *missing],
     }
 
 
@@ -324,10 +318,11 @@ def workspace(arm: Arm, reference_configuration: NDArray[np.float64]) -> NDArray
 
     A revolute joint without limits ranges half a turn either way of the reference, a prismatic one 0.1 m.
     """
-    uniform = np.random.default_rng(0).uniform(size=(WORKSPACE_CONFIGURATIONS, len(arm.joints)))
-    low, high = np.empty(len(arm.joints)), np.empty(len(arm.joints))
-    for index, joint in enumerate(arm.joints):
+    driven = arm.driven.joints
+    middles = arm.lead(np.asarray(reference_configuration)[None])[0]
+    uniform = np.random.default_rng(0).uniform(size=(WORKSPACE_CONFIGURATIONS, len(driven)))
+    low, high = np.empty(len(driven)), np.empty(len(driven))
+    for index, (joint, middle) in enumerate(zip(driven, middles, strict=True)):
         reach = np.pi if joint.revolute else 0.1
-        middle = reference_configuration[index]
         low[index], high[index] = joint.limits or (middle - reach, middle + reach)
-    return np.ascontiguousarray(low + uniform * (high - low))
+    return np.ascontiguousarray(arm.follow(low + uniform * (high - low)))

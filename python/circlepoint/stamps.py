@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import circlepoint
+from circlepoint.findings import Finding
 
 if TYPE_CHECKING:
     from circlepoint.log_table import FloatArray, LogTable
@@ -42,3 +43,9 @@ def table_timeline(
             int(first.index),
         )
     return timeline
+
+
+def timeline_findings(timeline: circlepoint.TimelineReport, source: str) -> list[Finding]:
+    """Return what the stamps have shown; of a rate out of range `circlepoint.plausibility` speaks."""
+    notes = [note for note in timeline.notes if not note.startswith("the sample rate is")]
+    return [Finding("timeline", f"{source}: {note}") for note in notes]

@@ -24,10 +24,9 @@ from numpy.typing import NDArray
 
 from circlepoint._core import InvalidInput
 from circlepoint.findings import Finding
-from circlepoint.log_table import MANY_ROWS
+from circlepoint.log_table import MANY_ROWS, PIECE_ROWS
 
 _DELIMITERS = (",", ";", "\t")
-_BLOCK_ROWS = 1 << 17  # rows of a piece of a Parquet file
 _COMPRESSION = 10  # of a CSV file, at most
 _BLOCK_BYTES = 1 << 22  # bytes of a piece of a CSV file
 
@@ -249,7 +248,7 @@ def _stream_parquet(table: TableFile, names: list[str]) -> Iterator[pa.RecordBat
         pyarrow.parquet.ParquetFile(table.path, buffer_size=_BLOCK_BYTES, pre_buffer=False) as file,
     ):
         _require_numbers(table, file.schema_arrow, names)
-        yield from file.iter_batches(batch_size=_BLOCK_ROWS, columns=names, use_threads=False)
+        yield from file.iter_batches(batch_size=PIECE_ROWS, columns=names, use_threads=False)
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from arm_files import TWO_TURNS
 from scipy import signal
 
 import circlepoint as cp
@@ -174,18 +175,6 @@ acquisition:
   gyroscope: {noise: 0.001}
   joints: {natural_frequency_hz: [4, 5], stiffness: 20000, mass: 1.4}
 """
-ARM = """\
-name: two
-joints:
-  - {name: pan, type: revolute}
-  - {name: tilt, type: revolute}
-dh:
-  convention: standard
-  rows:
-    - {a: 0.0, alpha: 1.5707963267948966, d: 0.3, theta: 0.0}
-    - {a: 0.25, alpha: 0.0, d: 0.0, theta: 0.0}
-encoder: {counts_per_revolution: 400000}
-"""
 
 
 def test_what_a_plan_leaves_out_is_the_papers_chain(tmp_path):
@@ -221,7 +210,7 @@ def test_an_impossible_section_names_its_field(line, message, tmp_path):
 
 def test_simulate_writes_gyroscope_and_temperature_and_they_read_back(tmp_path):
     (tmp_path / "plan.yaml").write_text(PLAN)
-    (tmp_path / "arm.yaml").write_text(ARM)
+    (tmp_path / "arm.yaml").write_text(TWO_TURNS)
     arguments = ["simulate", str(tmp_path / "plan.yaml"), "--arm", str(tmp_path / "arm.yaml"), "--sensor", "qa700"]
     for name in ("a.csv", "b.csv"):
         assert main([*arguments, "--out", str(tmp_path / name), "--seed", "3"]) == 0

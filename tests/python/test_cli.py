@@ -61,8 +61,10 @@ def test_wrong_arguments_end_with_status_2(arguments, capsys):
 def test_a_log_without_tests_says_what_to_record_of_which_joint(still_log, capsys):
     assert main(["check", *still_log]) == 1
     printed = capsys.readouterr().out
-    assert "2 of 2 joints cannot be calibrated on their own from this log: pan, tilt" in printed
-    assert "pan, tilt: no test of it alone" in printed
+    assert "calibrate (whole-arm): cannot tell the sensor's errors from the arm's" in printed
+    assert "--method joint, position, velocity: cannot find any of the 2 joints" in printed
+    assert "every joint: it does not move: move it over 60 deg or more" in printed
+    assert "for --method joint: every joint: no test of it alone" in printed
     assert "move it alone to and fro" in printed
 
 
@@ -79,7 +81,7 @@ def test_an_interrupt_ends_with_status_130(still_log, monkeypatch, capsys):
     def interrupt(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(check, "load_arm", interrupt)
+    monkeypatch.setattr(check, "arm_of", interrupt)
     assert main(["check", *still_log]) == 130
     assert "interrupted" in capsys.readouterr().err
 
@@ -88,7 +90,7 @@ def test_a_fault_of_the_program_asks_to_be_reported_and_shows_where_only_on_requ
     def fail(*_, **__):
         raise ZeroDivisionError("by nothing")
 
-    monkeypatch.setattr(check, "load_arm", fail)
+    monkeypatch.setattr(check, "arm_of", fail)
     assert main(["check", *still_log]) == 2
     message = capsys.readouterr().err
     assert "please report it: ZeroDivisionError: by nothing" in message
@@ -98,29 +100,42 @@ def test_a_fault_of_the_program_asks_to_be_reported_and_shows_where_only_on_requ
 
 
 @pytest.mark.parametrize(
-    ("folder", "ready", "missing"),
+    ("folder", "missing"),
     [
-        ("physics-arm7-sweeps-qa700", True, []),
-        ("physics-arm6-sweeps-mems", True, []),
-        ("physics-arm7-sweeps-coarse", True, []),
-        ("physics-arm6-free-qa700", False, [f"joint{i + 1}" for i in range(6)]),
+        ("physics-arm7-sweeps-qa700", []),
+        ("physics-arm6-sweeps-mems", []),
+        ("physics-arm7-sweeps-coarse", []),
+        ("physics-arm6-free-qa700", [f"joint{i + 1}" for i in range(6)]),
     ],
 )
-def test_check_finds_every_joints_tests_where_there_are_some(folder, ready, missing, shared_data, capsys):
+def test_check_finds_every_joints_tests_where_there_are_some(folder, missing, shared_data, capsys):
     folder = shared_data / folder
-    assert main(["check", str(folder / "log.csv"), "--arm", str(folder / "arm.yaml"), "--json"]) == (0 if ready else 1)
+    assert main(["check", str(folder / "log.csv"), "--arm", str(folder / "arm.yaml"), "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert [joint["name"] for joint in answer["joints"] if joint["status"] == "missing"] == missing
-    if ready:
+    assert {joint["whole_arm"] for joint in answer["joints"]} == {"good"}
+    assert answer["ready_alone"] == (not missing)
+    if not missing:
         for joint in answer["joints"]:
             assert joint["frequency"] == pytest.approx(0.5, rel=0.1)
+
+
+def test_check_says_that_joints_which_only_move_in_step_cannot_be_told_apart(shared_data, capsys):
+    folder = shared_data / "real-ur5-imu-8"
+    logs = [str(folder / "joints.csv"), str(folder / "sensor.csv")]
+    assert main(["check", *logs, "--arm", str(folder / "arm.yaml")]) == 1
+    printed = capsys.readouterr().out
+    assert "every joint: they only move in step with one another" in printed
+    assert "calibrate (whole-arm): cannot find any of the 6 joints" in printed
+    assert len(printed.splitlines()) < 45
 
 
 def test_check_names_the_joints_a_real_log_does_not_test(shared_data, capsys):
     folder = shared_data / "real-ur5-imu-6"
     logs = [str(folder / "joints.csv"), str(folder / "sensor.csv")]
-    assert main(["check", *logs, "--arm", str(folder / "arm.yaml"), "--json"]) == 1
+    assert main(["check", *logs, "--arm", str(folder / "arm.yaml"), "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
+    assert not answer["ready_alone"]
     status = {joint["name"]: joint["status"] for joint in answer["joints"]}
     assert status["wrist_3_joint"] != "missing"
     assert status["shoulder_pan_joint"] != "missing"
@@ -133,7 +148,7 @@ def test_the_module_is_the_command(still_log):
         [sys.executable, "-m", "circlepoint", "check", *still_log], capture_output=True, text=True, check=False
     )
     assert done.returncode == 1
-    assert "cannot be calibrated" in done.stdout
+    assert "cannot find any of the 2 joints" in done.stdout
     assert not done.stderr
 
 

@@ -5,10 +5,11 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 import pytest
+from arm_files import arm_of
+from bag_writer import write_recording_bag
 
 import circlepoint
-from circlepoint import log_table, long_logs, tables
-from circlepoint.arm import load_arm
+from circlepoint import arrays, bags, log_table, long_logs, scratch, tables
 from circlepoint.recording_io import read_recording
 
 RATE = 1000.0
@@ -18,18 +19,18 @@ FACTOR = 8
 
 @pytest.fixture
 def arm(tmp_path):
-    path = tmp_path / "arm.yaml"
-    path.write_text("name: two\njoints:\n  - {name: pan, type: revolute}\n  - {name: slide, type: prismatic}\n")
-    return load_arm(path)
+    return arm_of(tmp_path, pan="revolute", slide="prismatic")
 
 
 @pytest.fixture(autouse=True)
 def small_limits(monkeypatch):
     """Long logs are short here, and pieces end at odd places."""
-    for module in (log_table, long_logs, tables):
-        monkeypatch.setattr(module, "MANY_ROWS", 5000)
+    for module in (arrays, bags, log_table, long_logs, scratch, tables):
+        for name, value in (("MANY_ROWS", 5000), ("PIECE_ROWS", 777)):
+            if hasattr(module, name):
+                monkeypatch.setattr(module, name, value)
+    monkeypatch.setattr(scratch, "IN_MEMORY", 100_000)
     monkeypatch.setattr(long_logs, "KEPT", ROWS // FACTOR)
-    monkeypatch.setattr(tables, "_BLOCK_ROWS", 777)
     monkeypatch.setattr(tables, "_BLOCK_BYTES", 40_000)
 
 
@@ -46,6 +47,15 @@ def columns(t, q, a, scale=1.0):
 
 def write(folder, form, named):
     path = folder / f"log.{form}"
+    if form == "db3":
+        return write_recording_bag(
+            folder / "log",
+            "ROS 2 sqlite3",
+            ["pan", "slide"],
+            time=named["t"],
+            positions=np.column_stack([named["q1"], named["q2"]]),
+            force=np.column_stack([named["ax"], named["ay"], named["az"]]),
+        )
     table = pa.table(named)
     if form == "csv":
         pyarrow.csv.write_csv(table, path)
@@ -60,10 +70,11 @@ def require_motion(recording, tolerance):
     np.testing.assert_allclose(recording.specific_force, a, atol=10 * tolerance)
 
 
-@pytest.mark.parametrize("form", ["csv", "parquet"])
+@pytest.mark.parametrize("form", ["csv", "parquet", "db3"])
 def test_what_remains_is_the_motion_without_delay(form, arm, tmp_path):
     t = np.arange(ROWS) / RATE
     loaded = read_recording(write(tmp_path, form, columns(t, *motion(t))), arm)
+    assert not loaded.clock_alignments
     assert loaded.recording.sample_rate == pytest.approx(RATE / FACTOR)
     assert loaded.recording.samples == pytest.approx(ROWS / FACTOR - 32, abs=2)
     assert loaded.files[0].timeline.sample_rate == pytest.approx(RATE)
@@ -116,6 +127,26 @@ def test_joint_positions_stay_what_the_encoders_gave(arm, tmp_path):
     assert loaded.encoder_steps[0] == pytest.approx(step, rel=1e-6)
 
 
+def test_no_room_for_a_long_bag_says_what_to_do(arm, tmp_path, monkeypatch):
+    t = np.arange(4000) / RATE
+    path = write(tmp_path, "db3", columns(t, *motion(t)))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
+    with pytest.raises(circlepoint.InvalidInput, match=r"nowhere: cannot hold.*TMPDIR"):
+        read_recording(path, arm)
+
+
+@pytest.mark.parametrize("form", ["mapping", "pyarrow"])
+def test_long_arrays_in_memory_are_thinned_out_as_files_are(form, arm, tmp_path):
+    t = np.arange(ROWS) / RATE
+    named = columns(t, *motion(t))
+    expected = read_recording(write(tmp_path, "parquet", named), arm).recording
+    table = pa.table(named) if form == "pyarrow" else {"t": t, "q": motion(t)[0], "a": motion(t)[1].astype(">f8")}
+    found = circlepoint.recording_from_arrays(table, arm=arm).recording
+    np.testing.assert_array_equal(found.time, expected.time)
+    np.testing.assert_array_equal(found.joint_positions, expected.joint_positions)
+    np.testing.assert_array_equal(found.specific_force, expected.specific_force)
+
+
 @pytest.mark.parametrize("form", ["csv", "parquet"])
 def test_bad_values_are_found_wherever_they_are(form, arm, tmp_path):
     t = np.arange(ROWS) / RATE
@@ -128,6 +159,46 @@ def test_bad_values_are_found_wherever_they_are(form, arm, tmp_path):
     backwards[15_000] = 1.0
     with pytest.raises(circlepoint.InvalidInput, match="backwards"):
         read_recording(write(tmp_path, form, columns(backwards, q, motion(t)[1])), arm)
+
+
+@pytest.mark.parametrize("written", ["rows between rows", "a clock of its own"])
+def test_long_logs_of_two_rates_are_thinned_out_apart(written, arm, tmp_path):
+    t = np.arange(ROWS) / RATE
+    q, a = motion(t)
+    named = columns(t, q, a)
+    if written == "rows between rows":
+        joints, sensor = np.arange(ROWS) % 2 == 0, np.arange(ROWS) % 2 == 1
+        for name in ("q1", "q2"):
+            named[name] = np.where(joints, named[name], np.nan)
+        for name in ("ax", "ay", "az"):
+            named[name] = np.where(sensor, named[name], np.nan)
+    else:  # a pendulum that swings faster and faster
+        swing = 0.9 * np.sin(0.5 * t + 0.1 * t**2)
+        named = columns(
+            t, np.column_stack([swing, 0 * t]), 9.8 * np.column_stack([np.sin(swing), np.cos(swing), 0 * t])
+        )
+        named["t_sensor"] = t + 0.25
+    loaded = read_recording(write(tmp_path, "csv", named), arm)
+    assert [file.joints for file in loaded.files] == [True, False]
+    assert [finding.code for finding in loaded.findings].count("thinned") == 2
+    if written == "rows between rows":
+        require_motion(loaded.recording, 1e-4)
+    else:
+        (clock,) = loaded.clock_alignments
+        assert clock.offset == pytest.approx(0.25, abs=0.01)
+
+
+def test_a_bad_value_in_one_of_two_rates_is_found_where_it_is(arm, tmp_path):
+    t = np.arange(ROWS) / RATE
+    named = columns(t, *motion(t))
+    odd = np.arange(ROWS) % 2 == 1
+    for name in ("q1", "q2"):
+        named[name] = np.where(odd, np.nan, named[name])
+    for name in ("ax", "ay", "az"):
+        named[name] = np.where(odd, named[name], np.nan)
+    named["ay"][12_345] = np.nan
+    with pytest.raises(circlepoint.InvalidInput, match=r"line 12347: column `ay` is empty"):
+        read_recording(write(tmp_path, "csv", named), arm)
 
 
 def test_clipping_is_found_in_the_raw_samples_and_units_hold(arm, tmp_path):

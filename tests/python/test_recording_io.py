@@ -6,6 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet
 import pytest
+from arm_files import arm_of
 
 import circlepoint
 from circlepoint.arm import load_arm
@@ -16,9 +17,7 @@ RATE = 100.0
 
 @pytest.fixture
 def arm(tmp_path):
-    path = tmp_path / "arm.yaml"
-    path.write_text("name: two\njoints:\n  - {name: pan, type: revolute}\n  - {name: slide, type: prismatic}\n")
-    return load_arm(path)
+    return arm_of(tmp_path, pan="revolute", slide="prismatic")
 
 
 @pytest.fixture
@@ -238,3 +237,42 @@ def test_time_of_day_in_parquet_is_seconds(tmp_path, arm, samples):
     pyarrow.parquet.write_table(table, tmp_path / "log.parquet")
     recording = read_recording(tmp_path / "log.parquet", arm).recording
     assert recording.sample_rate == pytest.approx(RATE, rel=1e-6)
+
+
+def modules(count, rows=200):
+    t = np.arange(rows) / 100
+    named = {"t_pc": t + 0.01}
+    for k in range(1, count + 1):
+        named |= {f"hwt{k}": t, f"q{k}": 0.1 * k * t}
+        named |= {f"a{k}{axis}": 0 * t + 0.1 * k + 9.7 * (axis == "z") for axis in "xyz"}
+        named |= {f"w{k}{axis}": 0 * t + 0.01 * k for axis in "xyz"}
+    return named
+
+
+@pytest.mark.parametrize(("joints", "sensor", "beyond"), [(4, 5, ()), (2, 3, ()), (5, 5, (4,))])
+def test_an_arm_of_modules_is_read_by_its_names(joints, sensor, beyond, tmp_path):
+    named = modules(5)
+    (tmp_path / "log.csv").write_text(
+        "\n".join([",".join(named), *(",".join(map(str, row)) for row in zip(*named.values(), strict=True))]) + "\n"
+    )
+    loaded = read_recording(
+        tmp_path / "log.csv", arm_of(tmp_path, **dict.fromkeys([f"joint{k + 1}" for k in range(joints)], "revolute"))
+    )
+    assert not loaded.clock_alignments
+    quantities = {quantity.name: quantity.columns for quantity in loaded.files[0].quantities}
+    assert quantities["time"] == (f"hwt{sensor}",)
+    assert quantities["joints"] == tuple(f"q{k + 1}" for k in range(joints))
+    assert quantities["specific force"] == tuple(f"a{sensor}{axis}" for axis in "xyz")
+    assert quantities["gyroscope"] == tuple(f"w{sensor}{axis}" for axis in "xyz")
+    assert loaded.files[0].beyond == beyond
+    np.testing.assert_allclose(np.asarray(loaded.recording.specific_force)[:, 0], 0.1 * sensor)
+    assert any(f"module {sensor} was taken" in finding.message for finding in loaded.findings)
+
+
+def test_a_real_arm_of_modules_needs_no_column_map(shared_data, tmp_path):
+    loaded = read_recording(
+        shared_data / "real-hebi-5module" / "log.csv.gz",
+        arm_of(tmp_path, a="revolute", b="revolute", c="revolute", d="revolute"),
+    )
+    assert loaded.files[0].samples == 1508
+    assert np.abs(np.asarray(loaded.recording.specific_force)).max() < 30

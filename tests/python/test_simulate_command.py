@@ -4,23 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from arm_files import TWO_TURNS
 
 from circlepoint.arm import load_arm
 from circlepoint.cli import main
 from circlepoint.recording_io import read_recording
 
-ARM = """\
-name: two
-joints:
-  - {name: pan, type: revolute}
-  - {name: tilt, type: revolute}
-dh:
-  convention: standard
-  rows:
-    - {a: 0.0, alpha: 1.5707963267948966, d: 0.3, theta: 0.0}
-    - {a: 0.25, alpha: 0.0, d: 0.0, theta: 0.0}
-encoder: {counts_per_revolution: 400000}
-"""
 PLAN = """\
 rate_hz: 100
 rest_deg: 20
@@ -33,7 +22,7 @@ tests:
 
 @pytest.fixture
 def arguments(tmp_path):
-    (tmp_path / "arm.yaml").write_text(ARM)
+    (tmp_path / "arm.yaml").write_text(TWO_TURNS)
     (tmp_path / "plan.yaml").write_text(PLAN)
     return ["simulate", str(tmp_path / "plan.yaml"), "--arm", str(tmp_path / "arm.yaml"), "--sensor", "ideal"]
 
@@ -71,7 +60,7 @@ def test_the_same_seed_gives_the_same_bytes_and_another_seed_another_sensor(argu
     ],
 )
 def test_what_cannot_be_simulated_is_refused(change, words, arguments, tmp_path, capsys):
-    (tmp_path / "bare.yaml").write_text(ARM[: ARM.index("dh:")])
+    (tmp_path / "bare.yaml").write_text(TWO_TURNS[: TWO_TURNS.index("dh:")])
     options = {"--arm": "arm.yaml", "--sensor": "ideal", "--out": "log.csv", "--seed": "1", **change}
     for key in ("--arm", "--out"):
         options[key] = str(tmp_path / options[key])

@@ -155,11 +155,6 @@ BAD = {
     "degrees": (TWO.replace('rpy="1.5707963267948966 0 0"', 'rpy="90 0 0"'), {}, ["'turn'", "degrees"]),
     "limits": (TWO.replace('lower="-0.1"', 'lower="0.9"'), {}, ["line 10", "'lift'", "0.9", "not below"]),
     "planar": (TWO.replace("continuous", "planar"), {}, ["'turn'", "'planar'", "--tip"]),
-    "mimic": (
-        TWO.replace('<axis xyz="0 1 0"/>', '<axis xyz="0 1 0"/><mimic joint="lift"/>'),
-        {},
-        ["'turn'", "mimics 'lift'"],
-    ),
     "several ends": (TWO.replace('<link name="foot"/>', '<link name="foot"/><link name="box"/>'), {}, ["box", "--tip"]),
     "unknown tip": (TWO, {"tip": "finger"}, ["--tip", "'finger'", "hand"]),
     "base above tip": (TWO, {"base": "upper", "tip": "lower"}, ["'upper'", "--base", "lower, foot"]),

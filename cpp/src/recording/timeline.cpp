@@ -35,6 +35,31 @@ double tidy_rate(double rate) {
   return std::abs(rounded - rate) < 1e-10 * rate ? rounded : rate;
 }
 
+struct Knots {
+  Eigen::VectorXd time;
+  SamplesX values;
+};
+
+// Rows whose stamps bunch are one, at their mean: a spline through samples at nearly one instant swings by their
+// difference over their distance.
+Knots merge_bunches(const Eigen::Ref<const Eigen::VectorXd>& time, const Eigen::Ref<const SamplesX>& values, double rate) {
+  constexpr double closest = 0.1;  // of a period
+  Knots knots{Eigen::VectorXd(time.size()), SamplesX(values.rows(), values.cols())};
+  Index count = 0;
+  for (Index begin = 0; begin < time.size(); ++count) {
+    Index end = begin + 1;
+    while (end < time.size() && (time(end) - time(end - 1)) * rate < closest) {
+      ++end;
+    }
+    knots.time(count) = time.segment(begin, end - begin).mean();
+    knots.values.row(count) = values.middleRows(begin, end - begin).colwise().mean();
+    begin = end;
+  }
+  knots.time.conservativeResize(count);
+  knots.values.conservativeResize(count, Eigen::NoChange);
+  return knots;
+}
+
 void describe(TimelineReport& report) {
   const auto say = [&](auto&&... parts) {
     std::ostringstream text;
@@ -239,10 +264,10 @@ SamplesX regularise(const Timeline& timeline, const Eigen::Ref<const SamplesX>& 
     const IndexRange rows = timeline.rows[s];
     const bool complete = span.size() == rows.size() && timeline.row_sample[static_cast<std::size_t>(rows.begin)] >= 0;
     if (!complete) {
+      const Knots knots = merge_bunches(timeline.row_time.segment(rows.begin, rows.size()),
+                                        values.middleRows(rows.begin, rows.size()), timeline.report.sample_rate);
       regular.middleRows(span.begin, span.size()) =
-          interpolate_cubic(timeline.row_time.segment(rows.begin, rows.size()),
-                            values.middleRows(rows.begin, rows.size()),
-                            timeline.time.segment(span.begin, span.size()));
+          interpolate_cubic(knots.time, knots.values, timeline.time.segment(span.begin, span.size()));
     }
     for (Index i = rows.begin; i < rows.end; ++i) {
       const Index k = timeline.row_sample[static_cast<std::size_t>(i)];

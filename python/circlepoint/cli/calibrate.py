@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from circlepoint._core import InvalidInput
-from circlepoint.arm import Arm, load_arm
 from circlepoint.atomic import require_writable_folder
 from circlepoint.calibration import Calibration, calibrate
-from circlepoint.cli.options import Subparsers, add_command, add_recording, numbers, progress
-from circlepoint.document import with_reading, write_document
+from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, numbers, progress, recording_of
+from circlepoint.document import with_description, with_reading, write_document
 from circlepoint.export import write_description
-from circlepoint.recording_io import LoadedRecording, read_recording
+from circlepoint.findings import few_gaps
 from circlepoint.sensor_presets import load_sensor
 
 if TYPE_CHECKING:
@@ -24,6 +23,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     import circlepoint
+    from circlepoint.arm import Arm
+    from circlepoint.recording_io import LoadedRecording
 
 METHODS = ("whole-arm", "joint", "position", "velocity")
 
@@ -79,24 +80,17 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     require_writable_folder(options.out)
-    arm = load_arm(options.arm, base=options.base, tip=options.tip)
+    arm = arm_of(options)
     _require_reference(options.reference_configuration, arm)
     sensor = None if options.sensor is None else load_sensor(options.sensor)
     with progress(3, quiet=options.json) as begin:
         begin("reading")
-        loaded = read_recording(
-            options.logs,
-            arm,
-            options.columns,
-            gravity=options.gravity,
-            joint_topic=options.joint_topic,
-            imu_topic=options.imu_topic,
-        )
+        loaded = recording_of(options, arm)
         begin("estimating")
         calibration = _estimate(options, loaded, arm, sensor)
         begin("writing")
         _write(options.out, calibration)
-        write_description(options.out, options.arm, calibration.document)
+        write_description(options.out, options.arm, calibration.document, base=options.base, tip=options.tip)
     document = calibration.document
     if options.json:
         print(json.dumps(document, indent=1, allow_nan=False))
@@ -127,7 +121,8 @@ def _estimate(
         gravity=options.gravity,
         reference_configuration=options.reference_configuration,
     )
-    return replace(calibration, document=with_reading(calibration.document, loaded))
+    document = with_reading(calibration.document, loaded)
+    return replace(calibration, document=with_description(document, options.arm, options.base, options.tip))
 
 
 def _write(folder: Path, calibration: Calibration) -> None:
@@ -151,8 +146,8 @@ def _print_tables(document: Mapping[str, Any], folder: Path) -> None:
     for combination in document["identifiability"]["unseen"]:
         if not any(combination.startswith(f"{joint['name']} line:") for joint in document["joints"] if joint["reason"]):
             print(f"hardly seen: {combination}")
-    for finding in document["findings"]:
-        print(f"note: {finding['message']}")
+    for message in few_gaps([finding["message"] for finding in document["findings"]]):
+        print(f"note: {message}")
     print(f"written: {folder / 'calibration.json'}, {folder / 'report.html'}")
 
 

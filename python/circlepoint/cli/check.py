@@ -7,20 +7,21 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from circlepoint.arm import load_arm
 from circlepoint.check import JointCheck, LogCheck, check_recording
-from circlepoint.cli.options import Subparsers, add_command, add_recording
+from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, recording_of
 from circlepoint.document import finding_entries
-from circlepoint.recording_io import LogFile, read_recording
+from circlepoint.findings import few_gaps
 
 if TYPE_CHECKING:
     import argparse
 
-_TEXT = """\
-Show what is in a log: sample rate, jitter and gaps, clipping, what the sensor reads at rest, the encoders' steps, the
-tests of each joint that were found, and what to record next.
+    from circlepoint.recording_io import LogFile
 
-Exit status 0: every joint can be calibrated (calibrate --method joint). 1: some cannot. 2: bad input."""
+_TEXT = """\
+Show what is in a log: sample rate, jitter and gaps, clipping, what the sensor reads at rest, the encoders' steps, how
+each joint moved, the tests of each joint alone that were found, and what to record next.
+
+Exit status 0: `calibrate` can find every joint, as far as the motion tells. 1: some it cannot. 2: bad input."""
 
 _EXAMPLES = """\
   circlepoint check log.csv --arm arm.yaml
@@ -31,7 +32,6 @@ _EXAMPLES = """\
 """
 
 _WIDTH = 118
-_GAPS_SHOWN = 3
 
 
 def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
@@ -46,15 +46,8 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    arm = load_arm(options.arm, base=options.base, tip=options.tip)
-    loaded = read_recording(
-        options.logs,
-        arm,
-        options.columns,
-        gravity=options.gravity,
-        joint_topic=options.joint_topic,
-        imu_topic=options.imu_topic,
-    )
+    arm = arm_of(options)
+    loaded = recording_of(options, arm)
     result = check_recording(loaded, arm, gravity=options.gravity)
     print(json.dumps(check_document(result), indent=1, allow_nan=False) if options.json else format_check(result))
     return 0 if result.ready else 1
@@ -63,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
 def check_document(result: LogCheck) -> dict[str, Any]:
     """Return the answer as JSON has it; SI units and radians."""
     recording = result.loaded.recording
+    names = [joint.joint.name for joint in result.joints]
     return {
         "ready": result.ready,
         "files": [_file_document(file) for file in result.loaded.files],
@@ -79,7 +73,13 @@ def check_document(result: LogCheck) -> dict[str, Any]:
         "rest_noise": result.rest_noise,
         "largest_force": result.largest_force,
         "gravity": result.gravity,
-        "joints": [_joint_document(joint) for joint in result.joints],
+        "joints": [_joint_document(joint, names) for joint in result.joints],
+        "gravity_motion": None
+        if result.gravity_motion is None
+        else {"turn": result.gravity_motion.turn, "second": result.gravity_motion.second},
+        "gravity_status": result.gravity_status,
+        "gravity_advice": result.gravity_advice,
+        "ready_alone": result.ready_alone,
         "findings": finding_entries(result.findings),
     }
 
@@ -97,18 +97,33 @@ def format_check(result: LogCheck) -> str:
         f"recording   {recording.samples} samples at {recording.sample_rate:.6g} Hz in {len(recording.spans)} "
         f"span{'s' if len(recording.spans) != 1 else ''}, {recording.joints} joints"
     )
-    lines += [_rest_line(result), _range_line(result)]
+    lines += [_rest_line(result), _range_line(result), _gravity_line(result)]
     lines += ["", *_joint_table(result.joints), ""]
-    lines += _wrapped(_advice(result.joints), "to record")
-    lines += _wrapped(_few_gaps([_short(finding.message, result) for finding in result.findings]), "findings")
-    missing = [joint.joint.name for joint in result.joints if joint.status == "missing"]
-    lines.append(
-        f"{len(missing)} of {len(result.joints)} joints cannot be calibrated on their own from this log: "
-        f"{', '.join(missing)}; where they move together with others, `calibrate` (whole-arm) may still find them"
-        if missing
-        else "every joint can be calibrated from this log"
-    )
-    return "\n".join(lines)
+    lines += _wrapped(_advice(result), "to record")
+    lines += _wrapped(few_gaps([_short(finding.message, result) for finding in result.findings]), "findings")
+    return "\n".join([*lines, *_verdicts(result)])
+
+
+def _verdicts(result: LogCheck) -> list[str]:
+    """Return what either way of calibrating can do with the log."""
+    count = len(result.joints)
+    lines = []
+    for name, whole in (("calibrate (whole-arm)", True), ("--method joint, position, velocity", False)):
+        status = {joint.joint.name: joint.whole_arm if whole else joint.status for joint in result.joints}
+        missing = [joint for joint, found in status.items() if found == "missing"]
+        weak = [joint for joint, found in status.items() if found == "weak"]
+        if whole and result.gravity_status == "missing":
+            said = "cannot tell the sensor's errors from the arm's"
+        elif missing:
+            said = f"cannot find {f'any of the {count} joints' if len(missing) == count else ', '.join(missing)}"
+        else:
+            said = "can find every joint"
+        if weak and len(missing) < count:
+            said += f"; badly: {f'all {count} joints' if len(weak) == count else ', '.join(weak)}"
+        elif whole and result.gravity_status == "weak":
+            said += "; badly, as gravity turns too little"
+        lines += textwrap.wrap(f"{name}: {said}", _WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+    return lines
 
 
 def _file_line(file: LogFile) -> str:
@@ -142,20 +157,20 @@ def _short(message: str, result: LogCheck) -> str:
     return message
 
 
-def _few_gaps(messages: list[str]) -> list[str]:
-    """Return the messages with the first gaps only."""
-    gaps = [message for message in messages if ": a gap of " in message]
-    if len(gaps) <= _GAPS_SHOWN:
-        return messages
-    left_out = set(gaps[_GAPS_SHOWN:])
-    more = f"{len(gaps) - _GAPS_SHOWN} more gaps (--json lists all)"
-    return [*(message for message in messages if message not in left_out), more]
-
-
 def _range_line(result: LogCheck) -> str:
     clipped = sum(finding.code == "clipping" for finding in result.findings)
     seen = f"{clipped} channel ends clipped (see the findings)" if clipped else "no clipping"
     return f"range       largest reading of a channel {result.largest_force:.4g} m/s^2, {seen}"
+
+
+def _gravity_line(result: LogCheck) -> str:
+    turned = result.gravity_motion
+    if turned is None:
+        return "gravity     too short to say how it turned"
+    return (
+        f"gravity     turned by {math.degrees(turned.turn):.0f} deg in the sensor's frame, and by "
+        f"{math.degrees(turned.second):.0f} deg out of the plane it turned in most: {result.gravity_status}"
+    )
 
 
 def _rest_line(result: LogCheck) -> str:
@@ -170,20 +185,8 @@ def _rest_line(result: LogCheck) -> str:
 
 
 def _joint_table(joints: tuple[JointCheck, ...]) -> list[str]:
-    header = [
-        "joint",
-        "tests",
-        "rests",
-        "span",
-        "motions",
-        "travel",
-        "strokes",
-        "moving",
-        "rate",
-        "gravity",
-        "encoder step",
-        "verdict",
-    ]
+    header = ["joint", "travel", "speed", "moving", "whole-arm", "step", "tests", "rests", "motions", "strokes", "rate"]
+    header += ["gravity", "alone"]
     rows = [header, *(_joint_row(index, joint) for index, joint in enumerate(joints))]
     widths = [max(len(row[column]) for row in rows) for column in range(len(header))]
     table = []
@@ -201,29 +204,40 @@ def _joint_row(index: int, check: JointCheck) -> list[str]:
     step = "-"
     if check.encoder_step is not None:
         step = f"{1e6 * check.encoder_step:.3g} u{check.joint.unit}"
+    motion = check.motion
     return [
         f"{index + 1} {check.joint.name}",
-        str(check.tests),
-        str(check.dwells),
-        f"{factor * check.dwell_span:.0f} {unit}" if check.dwells else "-",
-        str(check.motions),
-        f"{factor * check.motion_span:.0f} {unit}" if check.motions else "-",
+        f"{factor * motion.travel:.3g} {unit}",
+        f"{factor * motion.speed:.3g} /s",
+        f"{motion.time:.1f} s",
+        check.whole_arm,
+        step,
+        str(check.tests) if check.tests else "-",
+        f"{check.dwells} / {factor * check.dwell_span:.0f} {unit}" if check.dwells else "-",
+        f"{check.motions} / {factor * check.motion_span:.0f} {unit}" if check.motions else "-",
         str(check.strokes) if check.motions else "-",
-        f"{check.motion_time:.1f} s" if check.motions else "-",
         f"{check.frequency:.2f} Hz" if check.frequency is not None else "-",
         f"{check.gravity_share:.2f} g" if check.gravity_share is not None else "-",
-        step,
         check.status,
     ]
 
 
-def _advice(joints: tuple[JointCheck, ...]) -> list[str]:
-    """Return what to record, joints with the same advice together."""
+def _advice(result: LogCheck) -> list[str]:
+    """Return what to record, joints with the same advice together: for whole-arm, then for tests of joints alone."""
+    advice = [result.gravity_advice] if result.gravity_advice else []
+    advice += _grouped([(joint.whole_arm_advice, joint.joint.name) for joint in result.joints])
+    alone = _grouped([(joint.advice, joint.joint.name) for joint in result.joints])
+    return advice + [f"for --method joint: {text}" for text in alone]
+
+
+def _grouped(said: list[tuple[str, str]]) -> list[str]:
     named: dict[str, list[str]] = {}
-    for joint in joints:
-        if joint.advice:
-            named.setdefault(joint.advice, []).append(joint.joint.name)
-    return [f"{', '.join(names)}: {advice}" for advice, names in named.items()]
+    for advice, name in said:
+        if advice:
+            named.setdefault(advice, []).append(name)
+    return [
+        f"{'every joint' if len(names) == len(said) else ', '.join(names)}: {advice}" for advice, names in named.items()
+    ]
 
 
 def _wrapped(items: list[str], title: str) -> list[str]:
@@ -259,7 +273,7 @@ def _file_document(file: LogFile) -> dict[str, Any]:
     }
 
 
-def _joint_document(check: JointCheck) -> dict[str, Any]:
+def _joint_document(check: JointCheck, names: list[str]) -> dict[str, Any]:
     return {
         "name": check.joint.name,
         "type": check.joint.type,
@@ -275,4 +289,11 @@ def _joint_document(check: JointCheck) -> dict[str, Any]:
         "frequency": check.frequency,
         "encoder_step": check.encoder_step,
         "gravity_share": check.gravity_share,
+        "whole_arm": check.whole_arm,
+        "whole_arm_advice": check.whole_arm_advice,
+        "travel": check.motion.travel,
+        "speed": check.motion.speed,
+        "acceleration": check.motion.acceleration,
+        "moving_time": check.motion.time,
+        "in_step": [names[other] for other in check.motion.in_step],
     }

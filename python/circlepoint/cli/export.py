@@ -54,8 +54,12 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         "--out", type=Path, metavar="FILE", help="where to (default: a file named after the form in DIR)"
     )
     parser.add_argument("--arm", type=Path, metavar="ARM", help="the arm's nominal description, arm.yaml or URDF")
-    parser.add_argument("--base", metavar="LINK", help="URDF: base link (default: the first joint's parent)")
-    parser.add_argument("--tip", metavar="LINK", help="URDF: tip link (default: the last joint's child)")
+    parser.add_argument(
+        "--base", metavar="LINK", help="URDF: base link (default: as calibrated, else the first joint's parent)"
+    )
+    parser.add_argument(
+        "--tip", metavar="LINK", help="URDF: tip link (default: as calibrated, else the last joint's child)"
+    )
     parser.add_argument("--hash", metavar="TEXT", dest="checksum", help="ur: the controller's calibration checksum")
     parser.add_argument("--json", action="store_true", help="print the document as JSON; a file only with --out")
     parser.set_defaults(run=run)

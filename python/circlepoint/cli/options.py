@@ -11,9 +11,14 @@ from typing import TYPE_CHECKING, Any
 from tqdm import tqdm
 
 from circlepoint._core import STANDARD_GRAVITY
+from circlepoint.arm import load_arm
+from circlepoint.recording_io import read_recording
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+
+    from circlepoint.arm import Arm
+    from circlepoint.recording_io import LoadedRecording
 
 Subparsers = Any
 """What `argparse.ArgumentParser.add_subparsers` returns; its class has no public name."""
@@ -67,6 +72,23 @@ def add_arm(parser: argparse.ArgumentParser, text: str = "the arm's description,
     parser.add_argument("--arm", type=Path, required=True, metavar="ARM", help=text)
     parser.add_argument("--base", metavar="LINK", help="link of a URDF where the arm begins (default: its root)")
     parser.add_argument("--tip", metavar="LINK", help="link of a URDF that carries the sensor")
+
+
+def arm_of(options: argparse.Namespace) -> Arm:
+    """Read the arm the arguments name."""
+    return load_arm(options.arm, base=options.base, tip=options.tip)
+
+
+def recording_of(options: argparse.Namespace, arm: Arm) -> LoadedRecording:
+    """Read the recording the arguments name."""
+    return read_recording(
+        options.logs,
+        arm,
+        options.columns,
+        gravity=options.gravity,
+        joint_topic=options.joint_topic,
+        imu_topic=options.imu_topic,
+    )
 
 
 def positive(text: str) -> float:

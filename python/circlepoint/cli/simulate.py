@@ -7,9 +7,8 @@ import json
 from pathlib import Path
 
 from circlepoint._core import InvalidInput
-from circlepoint.arm import load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
-from circlepoint.cli.options import Subparsers, add_arm, add_command, add_gravity, progress
+from circlepoint.cli.options import Subparsers, add_arm, add_command, add_gravity, arm_of, progress
 
 _TEXT = """\
 Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,
@@ -51,6 +50,7 @@ def run(options: argparse.Namespace) -> int:
     import numpy as np  # noqa: PLC0415  (keeps `circlepoint --help` quick)
 
     import circlepoint  # noqa: PLC0415
+    from circlepoint.coupling import following, leading  # noqa: PLC0415
     from circlepoint.nominal import nominal_chain  # noqa: PLC0415
     from circlepoint.protocol import load_plan  # noqa: PLC0415
     from circlepoint.recording_files import recording_stem, require_format, write_recording  # noqa: PLC0415
@@ -59,15 +59,16 @@ def run(options: argparse.Namespace) -> int:
 
     require_format(options.out)
     require_writable_folder(options.out.parent)
-    arm = load_arm(options.arm, base=options.base, tip=options.tip)
+    arm = arm_of(options)
     if not arm.has_nominal:
         raise InvalidInput(f"{options.arm}: has no `dh` or `lines`; a simulation needs the arm's nominal parameters")
     specification = load_sensor(options.sensor)
-    plan = load_plan(options.plan, arm.joint_names, [joint.type for joint in arm.joints])
-    nominal = nominal_chain(arm, plan.rest)
+    plan = load_plan(options.plan, arm.driven.joint_names, [joint.type for joint in arm.driven.joints])
+    rest = arm.follow(plan.rest[None])[0]
+    nominal = nominal_chain(arm, rest)
     up_base = np.array([0.0, 0.0, options.gravity])
-    up_sensor = circlepoint.forward_kinematics(nominal, plan.rest)[:3, :3].T @ up_base
-    chain = circlepoint.rebase(nominal, plan.rest)
+    up_sensor = circlepoint.forward_kinematics(nominal, rest)[:3, :3].T @ up_base
+    chain = circlepoint.rebase(nominal, rest)
     counts = np.array([counts or 0.0 for counts in arm.encoder_counts or ()])
     drawn = circlepoint.draw_calibrated_accelerometer(specification, circlepoint.derive_seed(options.seed, 0))
     noise_seed = circlepoint.derive_seed(options.seed, 1)
@@ -86,14 +87,14 @@ def run(options: argparse.Namespace) -> int:
         simulation = plan.acquisition.simulation_options(specification, sheet, counts, noise_seed)
     with progress(2, quiet=options.json) as begin:
         begin("simulating")
-        recording = circlepoint.simulate(chain, up_sensor, actual, plan.trajectory(), simulation)
+        recording = circlepoint.simulate(chain, up_sensor, actual, following(arm, plan.trajectory()), simulation)
         begin("writing")
         truth = truth_document(arm, chain, up_sensor.tolist(), sensor, options.seed, sheet=sheet)
         text = json.dumps(truth, indent=1, allow_nan=False) + "\n"
         truth_path = options.out.with_name(f"{recording_stem(options.out)}.truth.json")
         options.out.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(truth_path, text.encode())
-        write_recording(options.out, recording)
+        write_recording(options.out, leading(arm, recording))
     if options.json:
         print(text, end="")
     else:

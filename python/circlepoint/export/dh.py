@@ -9,22 +9,18 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 import circlepoint
-from circlepoint.document import DH_PARAMETERS, plain
+from circlepoint.arm import DH_PARAMETERS
+from circlepoint.dh_rows import nearly_parallel, row_std
+from circlepoint.document import dh_row_entry, plain
 from circlepoint.export.form import Export, header
 from circlepoint.export.hayati import export_hayati
-from circlepoint.export.nominal_frames import neighbour_angles
-from circlepoint.export.transforms import inverse, rigid
+from circlepoint.transforms import inverse, rigid
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from circlepoint.export.placement import PlacedArm
     from circlepoint.nominal import DhChain
-
-NEAR_PARALLEL = 0.05
-"""rad; neighbours within it, and not exactly parallel, have a common normal too far away to be of use."""
-EXACTLY_PARALLEL = 1e-8
-"""rad; neighbours within it have as many common normals as one likes: one is chosen."""
 
 Convention = Literal["standard", "modified"]
 _FORMS: dict[Convention, str] = {"standard": "dh", "modified": "mdh"}
@@ -57,11 +53,7 @@ def export_dh(placed: PlacedArm, convention: Convention = "standard") -> Export:
     convention : {"standard", "modified"}
     """
     names = placed.arm.joint_names
-    near = [
-        (names[i], names[i + 1], angle)
-        for i, angle in enumerate(neighbour_angles(placed.arm.chain.axes))
-        if EXACTLY_PARALLEL <= angle < NEAR_PARALLEL
-    ]
+    near = [(names[i], names[i + 1], angle) for i, angle in nearly_parallel(placed.arm.chain.axes)]
     if near:
         pairs = ", ".join(f"{first} and {second} ({math.degrees(angle):.3g} deg)" for first, second, angle in near)
         note = (
@@ -98,16 +90,15 @@ def dh_parameters(placed: PlacedArm, convention: Convention) -> DhParameters:
         options = nominal if isinstance(nominal, circlepoint.StandardDhChain) else None
         standard = circlepoint.to_standard_dh(chain, options)
         rows: DhChain = standard.chain
-        free, jacobian = standard.free, circlepoint.dh_parameter_jacobian(chain, standard)
+        free, std = standard.free, row_std(chain, standard, placed.arm.covariance)
         moved: DhChain = circlepoint.StandardDhChain(rows.rows, rows.types, placed.T_base_sensor @ rows.base, rows.tool)
     else:
         options_modified = nominal if isinstance(nominal, circlepoint.ModifiedDhChain) else None
         modified = circlepoint.to_modified_dh(chain, options_modified)
         rows = modified.chain
-        free, jacobian = modified.free, circlepoint.dh_parameter_jacobian(chain, modified)
+        free, std = modified.free, row_std(chain, modified, placed.arm.covariance)
         moved = circlepoint.ModifiedDhChain(rows.rows, rows.types, placed.T_base_sensor @ rows.base, rows.tool)
-    variance = np.einsum("ij,jk,ik->i", jacobian, placed.arm.covariance, jacobian).reshape(-1, 4)
-    return DhParameters(moved, nominal, np.sqrt(np.maximum(variance, 0.0)), np.asarray(free, dtype=bool))
+    return DhParameters(moved, nominal, std, np.asarray(free, dtype=bool))
 
 
 def nominal_rows(placed: PlacedArm, convention: Convention) -> DhChain | None:
@@ -136,12 +127,8 @@ def nominal_rows(placed: PlacedArm, convention: Convention) -> DhChain | None:
 def _row(found: DhParameters, index: int, name: str) -> dict[str, Any]:
     row = found.chain.rows[index]
     values = (row.a, row.alpha, row.d, row.theta)
-    std = [
-        "free" if free else None if np.isnan(value) else float(value)
-        for value, free in zip(found.std[index], found.free[index], strict=True)
-    ]
-    entry: dict[str, Any] = {"joint": name, **dict(zip(DH_PARAMETERS, values, strict=True))}
-    entry["std"] = dict(zip(DH_PARAMETERS, std, strict=True))
+    named = dict(zip(DH_PARAMETERS, values, strict=True))
+    entry: dict[str, Any] = {"joint": name, **dh_row_entry(named, found.std[index], found.free[index])}
     if found.nominal is not None:
         nominal = found.nominal.rows[index]
         expected = (nominal.a, nominal.alpha, nominal.d, nominal.theta)

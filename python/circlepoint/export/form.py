@@ -54,6 +54,7 @@ def header(placed: PlacedArm, form: str, notes: tuple[str, ...] = ()) -> dict[st
         "joints": list(arm.joint_names),
         "joint_types": [kind.name for kind in arm.joint_types],
         "joint_positions": "raw encoder values, as recorded",
+        **({"mimics": list(arm.mimics)} if arm.mimics else {}),
         "reference_configuration": plain(arm.reference),
         "base_frame": placed.base_name,
         "nominal": None if placed.nominal is None else Path(placed.nominal.source).name,

@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import circlepoint
-from circlepoint.document import DH_PARAMETERS, plain
+from circlepoint.dh_rows import HAYATI_PARAMETERS, row_std
+from circlepoint.document import dh_row_entry, plain
 from circlepoint.export.form import Export, header
-from circlepoint.export.transforms import inverse
+from circlepoint.transforms import inverse
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from circlepoint.export.placement import PlacedArm
-
-PARAMETERS = (*DH_PARAMETERS, "beta")
 
 FORMULA = (
     "T_base_sensor(q) = base T_1(q_1) ... T_n(q_n) tool, "
@@ -75,12 +74,10 @@ def hayati_parameters(placed: PlacedArm) -> HayatiParameters:
         rows = [circlepoint.DhRow(row.a, row.alpha, row.d, row.theta) for row in nominal.rows]
         hint = circlepoint.StandardDhChain(rows, types, base @ nominal.base, placed.T_tip_sensor)
     found = circlepoint.to_hayati(chain, hint)
-    jacobian = circlepoint.hayati_parameter_jacobian(chain, found)
-    variance = np.einsum("ij,jk,ik->i", jacobian, placed.arm.covariance, jacobian).reshape(-1, 5)
     return HayatiParameters(
         circlepoint.HayatiChain(found.chain.rows, types, placed.T_base_sensor @ found.chain.base, found.chain.tool),
         nominal,
-        np.sqrt(np.maximum(variance, 0.0)),
+        row_std(chain, found, placed.arm.covariance),
         np.asarray(found.free, dtype=bool),
     )
 
@@ -97,16 +94,13 @@ def absent_parameter(row: circlepoint.HayatiRow) -> str:
 
 def _row(found: HayatiParameters, index: int, name: str) -> dict[str, Any]:
     row = found.chain.rows[index]
-    present = [key for key in PARAMETERS if key != absent_parameter(row)]
-    values = dict(zip(PARAMETERS, row_values(row), strict=True))
-    std: dict[str, float | str] = {}
-    for key, value, free in zip(PARAMETERS, found.std[index], found.free[index], strict=True):
-        if key in present:
-            std[key] = "free" if free else float(value)
-    entry: dict[str, Any] = {"joint": name, "form": row.form.name, **values, "std": std}
+    values = dict(zip(HAYATI_PARAMETERS, row_values(row), strict=True))
+    entry: dict[str, Any] = {"joint": name, "form": row.form.name}
+    entry |= dh_row_entry(values, found.std[index], found.free[index])
+    del entry["std"][absent_parameter(row)]
     if found.nominal is not None:
-        expected = dict(zip(PARAMETERS, row_values(found.nominal.rows[index]), strict=True))
-        entry["nominal"] = {key: expected[key] for key in PARAMETERS}
+        expected = dict(zip(HAYATI_PARAMETERS, row_values(found.nominal.rows[index]), strict=True))
+        entry["nominal"] = {key: expected[key] for key in HAYATI_PARAMETERS}
         moves = "theta" if found.chain.types[index] == circlepoint.JointType.revolute else "d"
         entry["joint_offset"] = values[moves] - expected[moves]
     return entry

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import circlepoint
 from circlepoint.document import plain
 from circlepoint.export.form import Export, header
-from circlepoint.export.transforms import quaternion_xyzw
+from circlepoint.transforms import quaternion_xyzw
 
 if TYPE_CHECKING:
     import numpy as np

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 import circlepoint
-from circlepoint.export.transforms import joint_motion
 from circlepoint.nominal import DhChain, joint_types, nominal_dh_chain
+from circlepoint.transforms import joint_motion
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from circlepoint.arm import Arm
+    from circlepoint.urdf_xml import UrdfJoint
 
 
 @dataclass(frozen=True)
@@ -104,14 +104,27 @@ def frames_of_arm(arm: Arm, source: str) -> NominalFrames | None:
     )
 
 
+def frames_of_urdf(chain: Sequence[UrdfJoint], source: str) -> NominalFrames:
+    """Return the frames of the child links of a URDF's chain; fixed joints are folded into them."""
+    placements: list[NDArray[np.float64]] = []
+    moving: list[UrdfJoint] = []
+    pose = np.eye(4)
+    for joint in chain:
+        pose = pose @ joint.origin
+        if not joint.fixed:
+            placements.append(pose)
+            moving.append(joint)
+            pose = np.eye(4)
+    return NominalFrames(
+        source=source,
+        base=chain[0].parent,
+        tip=chain[-1].child,
+        placements=tuple(placements),
+        axes=tuple(joint.axis for joint in moving),
+        types=tuple(joint.joint_type for joint in moving),
+        tip_placement=pose,
+    )
+
+
 def _z_axes(n: int) -> tuple[NDArray[np.float64], ...]:
     return tuple(np.array([0.0, 0.0, 1.0]) for _ in range(n))
-
-
-def neighbour_angles(axes: Sequence[circlepoint.ScrewAxis]) -> list[float]:
-    """Return the angle that each axis and the next enclose, undirected, rad."""
-    angles = []
-    for first, second in itertools.pairwise(axes):
-        u, v = np.asarray(first.line.direction), np.asarray(second.line.direction)
-        angles.append(float(np.arctan2(np.linalg.norm(np.cross(u, v)), abs(u @ v))))
-    return angles

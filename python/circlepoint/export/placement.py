@@ -23,7 +23,7 @@ import numpy as np
 
 import circlepoint
 from circlepoint._core import InvalidInput
-from circlepoint.export.transforms import inverse, joint_motion, nearest_frame, rigid
+from circlepoint.transforms import inverse, joint_motion, nearest_frame, rigid
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

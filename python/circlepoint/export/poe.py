@@ -9,7 +9,7 @@ import numpy as np
 import circlepoint
 from circlepoint.document import plain
 from circlepoint.export.form import Export, header
-from circlepoint.export.transforms import inverse
+from circlepoint.transforms import inverse
 
 if TYPE_CHECKING:
     from circlepoint.export.placement import PlacedArm

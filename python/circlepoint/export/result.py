@@ -38,6 +38,10 @@ class CalibratedArm:
         Of the axes' local coordinates (d1, d2, p1, p2), base to tip; rad^2, rad m, m^2.
     convention : str
         Of the Denavit-Hartenberg parameters in the result: "standard" or "modified".
+    mimics : tuple of mapping
+        Which joints follow others: ``joint``, ``mimics``, ``multiplier``, ``offset``.
+    base, tip : str or None
+        Links of the URDF it was calibrated with, where they were said.
     """
 
     name: str
@@ -45,6 +49,9 @@ class CalibratedArm:
     chain: circlepoint.ScrewChain
     covariance: NDArray[np.float64]
     convention: str
+    mimics: tuple[Mapping[str, Any], ...] = ()
+    base: str | None = None
+    tip: str | None = None
 
     @property
     def joint_types(self) -> list[circlepoint.JointType]:
@@ -104,12 +111,16 @@ def calibrated_arm(document: Any, *, where: str = "calibration document") -> Cal
         ) from error
     if reference.shape != (len(axes),):
         raise InvalidInput(f"{where}: reference_configuration has {reference.size} values for {len(axes)} joints")
+    description = document.get("description") or {}
     return CalibratedArm(
         name=name,
         joint_names=names,
         chain=circlepoint.ScrewChain(axes, reference),
         covariance=covariance,
         convention=(document.get("dh") or {}).get("convention", "standard"),
+        mimics=tuple(document.get("mimics", ())),
+        base=description.get("base"),
+        tip=description.get("tip"),
     )
 
 

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import circlepoint
+from circlepoint.dh_rows import HAYATI_PARAMETERS
 from circlepoint.export.form import Export, header
-from circlepoint.export.hayati import PARAMETERS, absent_parameter, hayati_parameters, row_values
+from circlepoint.export.hayati import absent_parameter, hayati_parameters, row_values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -61,7 +62,7 @@ def parameter_lines(placed: PlacedArm) -> list[Line]:
     lines = []
     for index, (name, row) in enumerate(zip(placed.arm.joint_names, found.chain.rows, strict=True)):
         expected = None if found.nominal is None else row_values(found.nominal.rows[index])
-        for column, key in enumerate(PARAMETERS):
+        for column, key in enumerate(HAYATI_PARAMETERS):
             if key == absent_parameter(row):
                 continue
             unit, scale = ("mm", _MM) if key in _LENGTHS else ("deg", _DEG)
@@ -131,7 +132,7 @@ def _decimals(line: Line) -> int:
 def _cells(line: Line) -> list[str]:
     decimals = _decimals(line)
     numbers = (line.nominal, line.calibrated, line.change)
-    shown = ["-" if number is None else f"{number:.{decimals}f}" for number in numbers]
+    shown = ["-" if number is None else f"{round(number, decimals) + 0.0:.{decimals}f}" for number in numbers]
     interval = "kept" if line.interval is None else f"± {line.interval:.{decimals}f}"
     return [line.joint, line.parameter, line.unit, *shown, interval]
 

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 import circlepoint
 from circlepoint._core import InvalidInput
+from circlepoint.dh_rows import neighbour_angles
 from circlepoint.document import plain
 from circlepoint.export.form import Export, header, yaml_text
-from circlepoint.export.nominal_frames import neighbour_angles
-from circlepoint.export.transforms import rpy_of_rotation
+from circlepoint.transforms import rpy_of_rotation
 
 if TYPE_CHECKING:
     import numpy as np

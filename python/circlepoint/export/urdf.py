@@ -15,10 +15,12 @@ import numpy as np
 import circlepoint
 from circlepoint.document import plain
 from circlepoint.export.form import Export, header
+from circlepoint.export.nominal_frames import frames_of_urdf
 from circlepoint.export.placement import PlacedArm, place
 from circlepoint.export.result import calibrated_arm
-from circlepoint.export.transforms import inverse, rpy_of_rotation
-from circlepoint.export.urdf_text import attribute, read_urdf_text
+from circlepoint.export.urdf_text import attribute, with_placements
+from circlepoint.transforms import inverse, rpy_of_rotation
+from circlepoint.urdf_xml import parse_urdf
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -61,11 +63,11 @@ def export_urdf(
     arm: CalibratedArm, urdf_text: str, where: str = "URDF", *, base: str | None = None, tip: str | None = None
 ) -> Export:
     """Return the edited URDF and its notes; parameters and errors as `write_calibrated_urdf`, `where` names it."""
-    urdf = read_urdf_text(urdf_text, where)
-    path = urdf.path(arm.joint_names, base, tip)
-    nominal = urdf.frames(arm.joint_names, base, tip)
+    urdf = parse_urdf(urdf_text, where)
+    chain = urdf.chain_of(arm.joint_names, base, tip)
+    nominal = frames_of_urdf(chain, where)
     placed = place(arm, nominal)
-    text, changed = urdf.with_placements(path, placed.placements)
+    text, changed = with_placements(urdf_text, chain, placed.placements)
     notes = (
         f"{len(changed)} joint origins changed, nothing else: {', '.join(changed) or 'none'}",
         "visuals, collisions and inertials stay in their links' frames, which moved with the joints",

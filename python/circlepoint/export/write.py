@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from circlepoint._core import InvalidInput
-from circlepoint.arm import Arm, load_arm
+from circlepoint.arm import Arm, is_urdf, load_arm
 from circlepoint.atomic import require_writable_folder, write_atomically
 from circlepoint.export.dh import export_dh
 from circlepoint.export.form import Export, json_text, yaml_text
 from circlepoint.export.hayati import export_hayati
 from circlepoint.export.kdl import export_kdl
-from circlepoint.export.nominal_frames import frames_of_arm
+from circlepoint.export.nominal_frames import frames_of_arm, frames_of_urdf
 from circlepoint.export.pinocchio import export_pinocchio
 from circlepoint.export.placement import place
 from circlepoint.export.poe import export_poe
@@ -20,7 +20,7 @@ from circlepoint.export.result import CalibratedArm, calibrated_arm, load_result
 from circlepoint.export.table import export_table
 from circlepoint.export.ur import export_ur
 from circlepoint.export.urdf import export_urdf, minimal_urdf
-from circlepoint.export.urdf_text import read_urdf_text
+from circlepoint.urdf_xml import parse_urdf, read_urdf_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 FORMS = ("urdf", "dh", "mdh", "hayati", "poe", "ur", "kdl", "pinocchio", "table")
 KEPT_DESCRIPTIONS = ("nominal.urdf", "arm.yaml")
 """Names in a result folder under which the arm's description is looked for."""
-_URDF_ENDINGS = (".urdf", ".xml")
 _DOCUMENT_ENDINGS = (".yaml", ".yml", ".json")
 _PLAIN_FORMS: dict[str, Callable[[PlacedArm], Export]] = {
     "dh": lambda placed: export_dh(placed, "standard"),
@@ -73,7 +72,7 @@ def export_result(
     arm : Path, optional
         The nominal description, ``arm.yaml`` or URDF; by default the one kept in the folder, if any.
     base, tip : str, optional
-        Links of a URDF.
+        Links of a URDF; by default those it was calibrated with.
     checksum : str, optional
         For the form ``ur``: the controller's.
 
@@ -86,6 +85,8 @@ def export_result(
     """
     calibrated = load_result(folder)
     description = _description(folder, arm)
+    if arm is None and base is None and tip is None:
+        base, tip = calibrated.base, calibrated.tip
     if form == "urdf" and description is not None and description.urdf_text is not None:
         return export_urdf(calibrated, description.urdf_text, str(description.path), base=base, tip=tip)
     placed = _placed(calibrated, description, base, tip)
@@ -169,13 +170,13 @@ def write_description(
     list of Path
         What was written.
     """
-    is_urdf = description.suffix.lower() in _URDF_ENDINGS
-    kept = folder / (KEPT_DESCRIPTIONS[0] if is_urdf else KEPT_DESCRIPTIONS[1])
+    urdf_came = is_urdf(description)
+    kept = folder / (KEPT_DESCRIPTIONS[0] if urdf_came else KEPT_DESCRIPTIONS[1])
     if not (kept.exists() and kept.samefile(description)):
         write_atomically(kept, description.read_bytes())
-    if not is_urdf or not calibration_document["complete"]:
+    if not urdf_came or not calibration_document["complete"]:
         return [kept]
-    text = _urdf_text(description)
+    text = read_urdf_file(description)
     export = export_urdf(calibrated_arm(calibration_document), text, str(description), base=base, tip=tip)
     return [kept, *write_export(export, folder, "urdf")]
 
@@ -199,26 +200,17 @@ def _description(folder: Path, given: Path | None) -> Description | None:
         path = next((folder / name for name in KEPT_DESCRIPTIONS if (folder / name).is_file()), None)
     if path is None:
         return None
-    if path.suffix.lower() not in _URDF_ENDINGS:
+    if not is_urdf(path):
         return Description(path, arm=load_arm(path))
-    return Description(path, urdf_text=_urdf_text(path))
-
-
-def _urdf_text(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8")
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read ({error.strerror or error}); check the path") from error
-    except UnicodeDecodeError as error:
-        raise InvalidInput(f"{path}: is not UTF-8 text (byte {error.start}); save the URDF as UTF-8") from error
+    return Description(path, urdf_text=read_urdf_file(path))
 
 
 def _placed(arm: CalibratedArm, description: Description | None, base: str | None, tip: str | None) -> PlacedArm:
     if description is None:
         return place(arm)
     if description.urdf_text is not None:
-        urdf = read_urdf_text(description.urdf_text, str(description.path))
-        return place(arm, urdf.frames(arm.joint_names, base, tip))
+        urdf = parse_urdf(description.urdf_text, str(description.path))
+        return place(arm, frames_of_urdf(urdf.chain_of(arm.joint_names, base, tip), urdf.where))
     if description.arm is not None and description.arm.joint_names != arm.joint_names:
         raise InvalidInput(
             f"{description.path}: has the joints {', '.join(description.arm.joint_names)}, the calibrated arm has "

@@ -38,8 +38,8 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
     Returns
     -------
     str
-        One row a joint: direction, nearest point in mm, standard deviations in mrad and mm; a joint that could not
-        be estimated is followed by the reason.
+        One row a joint: direction, nearest point in mm, standard deviations in mrad and mm; under them the reasons
+        why joints could not be estimated. No rows where none could.
     """
     joints = document["joints"]
     columns = [["", "joint", *(joint["name"] for joint in joints)]]
@@ -55,12 +55,12 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
     if nominal is not None:
         columns.append(["off nominal", "mrad", *align_decimals([milli(entry.direction) for entry in nominal])])
         columns.append(["", "mm", *align_decimals([milli(entry.point) for entry in nominal])])
-    lines = _layout(columns, header_rows=2)
-    lines += [
-        f"{joint['name']}: not estimated. {joint.get('reason') or 'No reason was given.'}"
-        for joint in joints
-        if not is_estimated(joint)
-    ]
+    lines = _layout(columns, header_rows=2) if any(map(is_estimated, joints)) else []
+    reasons: dict[str, list[str]] = {}
+    for joint in joints:
+        if not is_estimated(joint):
+            reasons.setdefault(joint.get("reason") or "No reason was given.", []).append(joint["name"])
+    lines += [f"{', '.join(names)}: not estimated. {reason}" for reason, names in reasons.items()]
     return "\n".join(lines) + "\n"
 
 

@@ -128,6 +128,24 @@ TEST(Timeline, FilledSamplesFollowTheSignalAndOthersAreKept) {
   EXPECT_EQ(timeline.report.filled, 3);
 }
 
+TEST(Timeline, SamplesThatArriveInBunchesDoNotMakeTheSignalSwing) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::uniform_real_distribution<double> wait(0.0, 1.0);
+  constexpr double period = 0.01;
+  std::vector<double> times;
+  for (Index k = 0; k < 3000; ++k) {  // every other one comes right behind the one before it
+    times.push_back(k % 2 == 0 ? static_cast<double>(k) * period + 0.8 * period * wait(random) : times.back() + 5e-6);
+  }
+  const Timeline timeline = make_timeline(as_vector(times));
+  SamplesX values(timeline.row_time.size(), 1);
+  for (double& value : values.reshaped()) {
+    value = 9.8 + noise(random);
+  }
+  const SamplesX regular = regularise(timeline, values);
+  EXPECT_LT((regular.array() - 9.8).abs().maxCoeff(), 0.1);
+}
+
 TEST(Timeline, APauseStartsASpanOnItsOwnPhase) {
   Eigen::VectorXd time = stamps(2000, 250.0, 0.0);
   time.tail(1000).array() += 10.0013;

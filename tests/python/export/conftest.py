@@ -13,7 +13,8 @@ import pytest
 
 import circlepoint
 from circlepoint.document import SCHEMA_NAME, joint_entry
-from circlepoint.export.urdf_text import read_urdf_text
+from circlepoint.export.nominal_frames import frames_of_urdf
+from circlepoint.urdf_xml import parse_urdf
 
 ROBOTS = {
     "ur5": ("example-robot-data", "ur_description/urdf/ur5_robot.urdf", "base_link", "tool0"),
@@ -140,7 +141,7 @@ def built_robot(robot_file):
 
     def make(robot, **options):
         file = robot_file(robot)
-        frames = read_urdf_text(file.text).frames(file.joints, file.base, file.tip)
+        frames = frames_of_urdf(parse_urdf(file.text).chain_of(file.joints, file.base, file.tip), robot)
         return file, build(frames.chain, file.joints, **options)
 
     return make
@@ -151,7 +152,7 @@ def built_urdf():
     """The calibration of a built individual of a URDF's arm."""
 
     def make(text, joints, **options):
-        return build(read_urdf_text(text).frames(joints).chain, joints, **options)
+        return build(frames_of_urdf(parse_urdf(text).chain_of(joints), "URDF").chain, joints, **options)
 
     return make
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 import circlepoint
 from circlepoint.cli import main
 from circlepoint.export import FORMS, export_result, write_export
-from circlepoint.export.transforms import quaternion_xyzw, rotation_from_rpy, rpy_of_rotation
+from circlepoint.transforms import quaternion_xyzw, rotation_from_rpy, rpy_of_rotation
 
 SAME_POSE = 1e-9
 KINDS = ["general", "modified", "prismatic"]

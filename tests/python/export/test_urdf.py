@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 
 import circlepoint
-from circlepoint.export import calibrated_arm, export_result, write_calibrated_urdf, write_export
+from circlepoint.export import (
+    calibrated_arm,
+    export_result,
+    write_calibrated_urdf,
+    write_description,
+    write_export,
+)
 from circlepoint.export.urdf import export_urdf
 
 SAME_POSE = 1e-9
@@ -171,20 +177,14 @@ def test_odd_but_legal_text_survives(newline, built_urdf):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("<!-- by hand -->", '<!DOCTYPE robot [<!ENTITY x "1">]>', "declares entities"),
-        ("<!-- by hand -->", '<!DOCTYPE robot [<!ENTITY x SYSTEM "file:///etc/passwd">]>', "declares entities"),
-        ("<!-- by hand -->", '<!DOCTYPE robot SYSTEM "http://localhost/robot.dtd">', "external part"),
-        ('<link name="two"/>', '<xi:include href="other.xml"/><link name="two"/>', "includes another file"),
-        ('<link name="two"/>', '<xacro:arm name="x"/><link name="two"/>', "expand it with xacro"),
-        ("xyz='0.2 0 0'", "xyz='${length} 0 0'", "line 14: joint 'b': origin xyz is"),
-        ("xyz='0.2 0 0'", "xyz='0.2 0'", "must be three numbers"),
-        ('<axis xyz="0 1 0"/>', '<axis xyz="0 0 0"/>', "its axis is zero"),
-        ('type="continuous"', 'type="floating"', "joint 'a' is floating"),
-        ('<axis xyz="0 1 0"/>', '<axis xyz="0 1 0"/><mimic joint="a"/>', "joint 'b' mimics"),
+        ("<!-- by hand -->", '<!DOCTYPE robot [<!ENTITY x "1">]>', "has a document type"),
+        ('<link name="two"/>', '<xacro:arm name="x"/><link name="two"/>', "run `xacro`"),
+        ("xyz='0.2 0 0'", "xyz='0.2 0'", "line 15: joint 'b' <origin>: xyz=\"0.2 0\" must be 3 numbers"),
+        ('<axis xyz="0 1 0"/>', '<axis xyz="0 0 0"/>', "has no direction"),
+        ('type="continuous"', 'type="floating"', "joint 'a': is of type 'floating'"),
         ('<joint name="b" type="revolute">', '<joint name="b2" type="revolute">', "has no joint 'b'"),
-        ('<joint name="b" type="revolute">', '<joint name="a" type="revolute">', "has several joints 'a'"),
-        ("</robot>", "", "not valid XML"),
-        ("robot", "model", "top element"),
+        ('<joint name="b" type="revolute">', '<joint name="a" type="revolute">', "two joints are named 'a'"),
+        ("</robot>", "", "is not XML"),
     ],
 )
 def test_a_urdf_that_will_not_do_is_refused_with_the_reason(old, new, message, built_urdf):
@@ -196,8 +196,8 @@ def test_a_urdf_that_will_not_do_is_refused_with_the_reason(old, new, message, b
 @pytest.mark.parametrize(
     ("base", "tip", "message"),
     [
-        ("nowhere", None, "has no link 'nowhere'"),
-        ("tool", "base", "not beyond"),
+        ("nowhere", None, "--base 'nowhere' is not a link"),
+        ("tool", "base", "link 'tool' (--base) is not on the way"),
         ("one", "tool", "from 'one' to 'tool' the joints b, c move"),
     ],
 )
@@ -245,3 +245,36 @@ def test_the_command_finds_the_nominal_urdf_kept_in_the_result(built_robot, tmp_
     assert "kept nominal: base frame (base_link)" in printed
     expected = write_calibrated_urdf(file.text, built.document, file.base, file.tip)
     assert (tmp_path / "arm.urdf").read_bytes().decode() == expected
+
+
+@pytest.mark.parametrize("name", ["arm.urdf", "arm.URDF", "arm.xml", "arm.urdf.xacro", "description.txt"])
+def test_every_file_that_holds_a_urdf_is_kept_and_comes_back_as_one(name, built_robot, tmp_path):
+    file, built = built_robot("ur5")
+    came = tmp_path / name
+    came.write_bytes(file.text.encode())
+    folder = tmp_path / "result"
+    folder.mkdir()
+    written = write_description(folder, came, built.document, base=file.base, tip=file.tip)
+    assert [path.name for path in written] == ["nominal.urdf", "arm.urdf.yaml", "arm.urdf"]
+    assert (folder / "arm.urdf").read_bytes().decode() == write_calibrated_urdf(
+        file.text, built.document, file.base, file.tip
+    )
+    exported = export_result(write_result(folder, built), "urdf", arm=came, base=file.base, tip=file.tip)
+    assert exported.texts[".urdf"] == (folder / "arm.urdf").read_text()
+
+
+def write_result(folder, built):
+    (folder / "calibration.json").write_text(json.dumps(built.document))
+    return folder
+
+
+def test_the_tip_the_arm_was_calibrated_with_is_that_of_the_urdf_written(built_robot, tmp_path):
+    file, built = built_robot("panda")
+    (tmp_path / "arm.urdf").write_bytes(file.text.encode())
+    notes = []
+    for tip in ("panda_hand", "panda_hand_tcp"):
+        (tmp_path / tip).mkdir()
+        write_description(tmp_path / tip, tmp_path / "arm.urdf", built.document, base=file.base, tip=tip)
+        notes.append((tmp_path / tip / "arm.urdf.yaml").read_text())
+    assert "tip_frame: panda_hand\n" in notes[0]
+    assert "tip_frame: panda_hand_tcp\n" in notes[1]

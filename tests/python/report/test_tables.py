@@ -78,3 +78,13 @@ def test_a_prismatic_joint_has_a_direction_and_no_point(calibration):
     assert row[1:4] == ["-0.705151", "-0.578881", "0.409462"]
     assert row[4:7] == [ABSENT] * 3
     assert "not estimated" not in format_joint_table(calibration.document)
+
+
+def test_joints_that_fail_for_one_reason_are_named_together_and_an_empty_table_is_left_out():
+    missing = {"direction_sensor": None, "point_sensor": None, "direction_std": None, "point_std": None}
+    joints = [{"name": f"j{k}", "type": "revolute", "reason": "gravity hardly turns", **missing} for k in (1, 2)]
+    joints.append({"name": "j3", "type": "revolute", "reason": "it never moves", **missing})
+    assert format_joint_table({"joints": joints}).splitlines() == [
+        "j1, j2: not estimated. gravity hardly turns",
+        "j3: not estimated. it never moves",
+    ]

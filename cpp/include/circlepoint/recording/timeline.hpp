@@ -8,7 +8,7 @@
 //  - late stamps: a few samples are stamped on arrival, late and in a bunch, and the stamps then catch up. The phase
 //    after the bunch is the phase before it, so nothing is missing; the samples get their ticks' times.
 //  - jitter: the samples really were taken off the grid. The stamps are believed and the samples are interpolated
-//    (cubic spline) at the grid's times.
+//    (cubic spline) at the grid's times; those that bunch within a tenth of a period count as one, at their mean.
 //  - gaps: the phase jumps by whole periods and stays. Up to `max_filled` missing samples are interpolated, more split
 //    the recording into spans. The ticks are counted by tracking the phase, so a dropped sample shows even where
 //    rounding is as large as half a period.
