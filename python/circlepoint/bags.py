@@ -18,7 +18,7 @@ from circlepoint._core import InvalidInput
 from circlepoint.bag_messages import IMU, IMU_COLUMNS, JOINT_STATE, MessageDecoder
 from circlepoint.column_names import plain
 from circlepoint.findings import Finding
-from circlepoint.log_table import MANY_ROWS, FloatArray
+from circlepoint.log_table import MANY_ROWS, FloatArray, joined
 from circlepoint.scratch import Scratch
 
 if TYPE_CHECKING:
@@ -113,8 +113,7 @@ class TopicTable:
 
     def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
         """Return columns (N,) by name."""
-        pieces = list(self.batches(names))
-        return {name: np.concatenate([np.empty(0), *(piece[name] for piece in pieces)]) for name in names}
+        return joined(self.batches(names), names)
 
     def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
         """Yield the same columns piece by piece, in order."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from circlepoint._core import InvalidInput
@@ -127,8 +127,7 @@ class RowsWith:
 
     def read(self, names: Sequence[str]) -> dict[str, FloatArray]:
         """Return columns (N,) by name."""
-        pieces = list(self.batches(names))
-        return {name: np.concatenate([np.empty(0), *(piece[name] for piece in pieces)]) for name in names}
+        return joined(self.batches(names), names)
 
     def batches(self, names: Sequence[str]) -> Iterator[dict[str, FloatArray]]:
         """Yield the same columns piece by piece, in order."""
@@ -144,6 +143,15 @@ class RowsWith:
             empty = empty_rows(piece, self.group)
             yield from (first + np.flatnonzero(~empty)).tolist()
             first += empty.size
+
+
+def joined(pieces: Iterable[Mapping[str, FloatArray]], names: Sequence[str]) -> dict[str, FloatArray]:
+    """Return the columns (N,) of a log that comes in pieces."""
+    parts: dict[str, list[FloatArray]] = {name: [np.empty(0)] for name in names}
+    for piece in pieces:
+        for name, values in parts.items():
+            values.append(piece[name])
+    return {name: np.concatenate(values) for name, values in parts.items()}
 
 
 def empty_rows(piece: Mapping[str, FloatArray], group: Sequence[str]) -> NDArray[np.bool_]:

@@ -19,7 +19,7 @@ import numpy as np
 
 import circlepoint
 from circlepoint.findings import Finding
-from circlepoint.log_table import MANY_ROWS, FloatArray, require_finite
+from circlepoint.log_table import MANY_ROWS, FloatArray, joined, require_finite
 from circlepoint.plausibility import clipping_finding, find_clipped
 
 if TYPE_CHECKING:
@@ -60,8 +60,7 @@ class Thinned:
 
 def read_column(table: LogTable, name: str) -> FloatArray:
     """Return one column (N,) read piece by piece."""
-    pieces = [piece[name] for piece in table.batches([name])]
-    return np.concatenate(pieces) if pieces else np.empty(0)
+    return joined(table.batches([name]), [name])[name]
 
 
 def thinning_factor(rows: int, sample_rate: float) -> int:
