@@ -4,26 +4,20 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from circlepoint._core import InvalidInput
 from circlepoint.arm import Arm, load_arm
 from circlepoint.atomic import require_writable_folder
-from circlepoint.calibration import Calibration, calibrate
 from circlepoint.cli.options import Subparsers, add_command, add_recording, numbers, progress
-from circlepoint.document import with_reading, write_document
-from circlepoint.export import write_description
-from circlepoint.recording_io import LoadedRecording, read_recording
+from circlepoint.result_folder import CalibrationJob, calibrate_into
 from circlepoint.sensor_presets import load_sensor
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Mapping
     from typing import Any
-
-    import circlepoint
 
 METHODS = ("whole-arm", "joint", "position", "velocity")
 
@@ -82,21 +76,21 @@ def run(options: argparse.Namespace) -> int:
     arm = load_arm(options.arm, base=options.base, tip=options.tip)
     _require_reference(options.reference_configuration, arm)
     sensor = None if options.sensor is None else load_sensor(options.sensor)
+    job = CalibrationJob(
+        logs=tuple(options.logs),
+        arm_file=options.arm,
+        base=options.base,
+        tip=options.tip,
+        columns=options.columns,
+        method=options.method,
+        sensor=sensor,
+        gravity=options.gravity,
+        reference_configuration=options.reference_configuration,
+        joint_topic=options.joint_topic,
+        imu_topic=options.imu_topic,
+    )
     with progress(3, quiet=options.json) as begin:
-        begin("reading")
-        loaded = read_recording(
-            options.logs,
-            arm,
-            options.columns,
-            gravity=options.gravity,
-            joint_topic=options.joint_topic,
-            imu_topic=options.imu_topic,
-        )
-        begin("estimating")
-        calibration = _estimate(options, loaded, arm, sensor)
-        begin("writing")
-        _write(options.out, calibration)
-        write_description(options.out, options.arm, calibration.document)
+        calibration = calibrate_into(options.out, job, arm, begin)
     document = calibration.document
     if options.json:
         print(json.dumps(document, indent=1, allow_nan=False))
@@ -111,31 +105,6 @@ def run(options: argparse.Namespace) -> int:
             file=sys.stderr,
         )
     return 1 if missing else 0
-
-
-def _estimate(
-    options: argparse.Namespace,
-    loaded: LoadedRecording,
-    arm: Arm,
-    sensor: circlepoint.AccelerometerSpecification | None,
-) -> Calibration:
-    calibration = calibrate(
-        loaded.recording,
-        arm,
-        method=options.method,
-        sensor=sensor,
-        gravity=options.gravity,
-        reference_configuration=options.reference_configuration,
-    )
-    return replace(calibration, document=with_reading(calibration.document, loaded))
-
-
-def _write(folder: Path, calibration: Calibration) -> None:
-    from circlepoint.report import write_report  # noqa: PLC0415  (matplotlib is slow to load)
-
-    folder.mkdir(parents=True, exist_ok=True)
-    write_report(folder, calibration)
-    write_document(folder / "calibration.json", calibration.document)
 
 
 def _print_tables(document: Mapping[str, Any], folder: Path) -> None:
