@@ -43,7 +43,7 @@ def draw_summary(summary: Document) -> Figure:
                 "wspace": 0.16,
             },
         )
-        for panel, (title, place, factor) in zip(panels, QUANTITIES, strict=False):
+        for panel, (title, place, factor, _) in zip(panels, QUANTITIES, strict=False):
             for row, cell in enumerate(cells):
                 entry = cell
                 for key in place:
@@ -52,7 +52,7 @@ def draw_summary(summary: Document) -> Figure:
                 if entry.get("predicted") is not None:
                     panel.plot(factor * entry["predicted"], row, "|", color=palette["ink"][0], markersize=13)
             panel.set_title(title)
-            panel.set_xlim(left=0.0)
+            _scale(panel)
         _coverage(panels[-2], cells)
         for row, cell in enumerate(cells):
             _interval(panels[-1], row, cell["lines"]["nees"], 1.0, "accent")
@@ -65,6 +65,15 @@ def draw_summary(summary: Document) -> Figure:
             panel.grid(axis="y", visible=False)
         _legend(figure)
     return figure
+
+
+def _scale(panel: Axes) -> None:
+    """Begin at zero, but for errors of different orders of magnitude."""
+    low, high = panel.dataLim.intervalx
+    if 0.0 < 8.0 * low < high:
+        panel.set_xscale("log")
+    else:
+        panel.set_xlim(left=0.0)
 
 
 def _coverage(panel: Axes, cells: list[Document]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from circlepoint.campaign.config import SWEPT
 from circlepoint.report.rounding import ABSENT, PLUS_MINUS, significant
@@ -11,23 +11,25 @@ if TYPE_CHECKING:
     from circlepoint.document import Document
 
 QUANTITIES = (
-    ("end-point, mm", ("end_point",), 1e3),
-    ("direction, mrad", ("groups", "direction"), 1e3),
-    ("point, mm", ("groups", "point"), 1e3),
+    ("end-point, mm", ("end_point",), 1e3, ()),
+    ("direction, mrad", ("groups", "direction"), 1e3, (".d1", ".d2")),
+    ("point, mm", ("groups", "point"), 1e3, (".p1", ".p2")),
 )
-"""What is shown of a cell: title, place in its entry, and factor from SI units."""
+"""What is shown of a cell: title, place in its entry, factor from SI units, and how the names of its parameters end."""
 
 
 def format_summary(summary: Document) -> str:
     """Return the table, and what it says of trials that failed."""
-    rows = [["", "", *[text for title, _, _ in QUANTITIES for text in (title, "")], "inside, %", "", "NEES"]]
+    titles = [text for title, _, _, parts in QUANTITIES for text in (title, *([""] * (2 if parts else 1)))]
+    columns = [text for *_, parts in QUANTITIES for text in ("rmse", "predicted", *(["bias"] if parts else []))]
+    rows = [["", "", *titles, "inside, %", "", "NEES"]]
     names = swept(summary)
-    rows.append([", ".join(names) or "cell", "trials", *("rmse", "predicted") * len(QUANTITIES), "68", "95", "lines"])
+    rows.append([", ".join(names) or "cell", "trials", *columns, "68", "95", "lines"])
     rows += [
         [
             cell_label(cell, names),
             str(cell["trials"]),
-            *(text for _, place, factor in QUANTITIES for text in _figure(_at(cell, place), factor)),
+            *(text for _, place, factor, parts in QUANTITIES for text in _figures(cell, place, factor, parts)),
             _share(cell["lines"]["coverage_68"]),
             _share(cell["lines"]["coverage_95"]),
             _uncertain(cell["lines"]["nees"], 1.0),
@@ -55,22 +57,25 @@ def cell_label(cell: Document, names: list[str]) -> str:
     return ", ".join(cell[name] for name in names) or str(cell["method"])
 
 
-def _at(cell: Document, place: tuple[str, ...]) -> Any:
+def _figures(cell: Document, place: tuple[str, ...], factor: float, parts: tuple[str, ...]) -> list[str]:
+    """Return root mean square error, prediction, and the largest mean error among the parameters."""
+    entry: Document = cell
     for key in place:
-        cell = cell.get(key, {})
-    return cell
-
-
-def _figure(entry: Document, factor: float) -> tuple[str, str]:
+        entry = entry.get(key, {})
     predicted = entry.get("predicted")
-    return _uncertain(entry.get("rmse"), factor), ABSENT if predicted is None else significant(factor * predicted, 3)
+    texts = [_uncertain(entry.get("rmse"), factor), ABSENT if predicted is None else significant(factor * predicted, 3)]
+    if parts:
+        biases = [figures["bias"] for name, figures in cell["parameters"].items() if name.endswith(parts)]
+        known = [bias for bias in biases if bias is not None]
+        texts.append(_uncertain(max(known, key=lambda bias: abs(bias["value"]), default=None), factor, digits=2))
+    return texts
 
 
-def _uncertain(interval: Document | None, factor: float) -> str:
+def _uncertain(interval: Document | None, factor: float, digits: int = 3) -> str:
     """Return a statistic with half its 95 % interval."""
     if interval is None:
         return ABSENT
-    value = significant(factor * interval["value"], 3)
+    value = significant(factor * interval["value"], digits)
     if interval["low"] is None:
         return value
     return f"{value} {PLUS_MINUS} {significant(0.5 * factor * (interval['high'] - interval['low']), 1)}"

@@ -28,7 +28,7 @@ def cluster(tmp_path):
 
 
 def test_a_lost_worker_does_not_change_a_byte(change, config, tmp_path, cluster):
-    change("trials: 6", "trials: 16")
+    change("trials: 6", "trials: 12")
     change("file: arm.yaml", f"file: {config.parent / 'arm.yaml'}")
     campaign = load_campaign(config)
     run_campaign(campaign, tmp_path / "here", workers=2)

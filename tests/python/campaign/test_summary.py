@@ -44,10 +44,10 @@ def test_statistics_of_one_parameter_are_those_of_all_trials_at_once():
 def test_the_interval_of_the_rmse_covers_the_truth_in_95_percent_of_campaigns():
     random = np.random.default_rng(2)
     inside = 0
-    for _ in range(400):
+    for _ in range(200):
         interval = gathered(random.normal(0.0, 2.0, (200, 1)), np.full((200, 1), 2.0)).rmse()
         inside += interval.low <= 2.0 <= interval.high
-    assert stats.binomtest(inside, 400, 0.95).pvalue > 1e-3
+    assert stats.binomtest(inside, 200, 0.95).pvalue > 1e-3
 
 
 @pytest.mark.parametrize(("shared", "narrow"), [(0.0, True), (1.0, False)])
