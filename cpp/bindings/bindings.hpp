@@ -26,5 +26,7 @@ void bind_calibration(py::module_& m);
 void bind_acquisition(py::module_& m);
 void bind_simulation(py::module_& m);
 void bind_whole_arm(py::module_& m);
+void bind_experiment(py::module_& m);
+void bind_campaign(py::module_& m);
 
 }  // namespace circlepoint::bindings

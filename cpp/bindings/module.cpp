@@ -39,5 +39,7 @@ PYBIND11_MODULE(_core, m) {
   bind_whole_arm(m);
   bind_acquisition(m);
   bind_simulation(m);
+  bind_experiment(m);
+  bind_campaign(m);
   m.attr("__all__") = public_names(m);
 }

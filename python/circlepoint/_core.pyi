@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InstructionSet', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorFromGravity', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'available_instruction_sets', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'instruction_set', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_statistics', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'savgol_filter', 'screw_exp', 'segment', 'simulate', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'use_instruction_set', 'used_tolerance', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'Experiment', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InstructionSet', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'LineComparison', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorComparison', 'SensorFromGravity', 'SimulatedExperiment', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'TrialConditions', 'TrialOutcome', 'TrialResults', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'available_instruction_sets', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'compare_lines', 'compare_sensor', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_error', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'instruction_set', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_statistics', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'run_trials', 'savgol_filter', 'screw_exp', 'segment', 'sensor_figure_names', 'simulate', 'simulate_experiment', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'use_instruction_set', 'used_tolerance', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -3087,6 +3087,212 @@ class SimulationOptions:
     @property
     def vibration(self) -> VibrationOptions:
         ...
+class Experiment:
+    """
+    What is common to the repetitions of a simulated experiment.
+
+    Parameters
+    ----------
+    chain : ScrewChain
+        The arm as drawn; base frame = sensor frame at the reference configuration.
+    up_gravity_sensor : (3,) array_like, m/s^2
+        What an ideal sensor reads at rest there.
+    sensor : AccelerometerSpecification
+        The kind of sensor individuals are drawn from.
+    trajectory : JointTrajectory
+    simulation : SimulationOptions
+        Its seed, and its acquisition's calibration sheet, are drawn anew every time.
+    corrected : bool
+        With an acquisition: readings are corrected by the individual's sheet.
+    direction_std : float, rad
+    point_std : float, m
+        Of a built arm's lines about the drawn ones, in each of their local coordinates.
+    start_spread : (n,) array_like, rad or m
+        Joints start up to this beyond the trajectory, so that encoders round differently every time.
+    """
+    def __init__(self, *, chain: ScrewChain, up_gravity_sensor: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], sensor: AccelerometerSpecification, trajectory: JointTrajectory, simulation: SimulationOptions = ..., corrected: bool = True, direction_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0, start_spread: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...) -> None:
+        ...
+    @property
+    def chain(self) -> ScrewChain:
+        ...
+    @property
+    def corrected(self) -> bool:
+        ...
+    @property
+    def direction_std(self) -> float:
+        """
+        rad
+        """
+    @property
+    def point_std(self) -> float:
+        """
+        m
+        """
+    @property
+    def sensor(self) -> AccelerometerSpecification:
+        ...
+    @property
+    def simulation(self) -> SimulationOptions:
+        ...
+    @property
+    def start_spread(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (n,) rad or m
+        """
+    @property
+    def trajectory(self) -> JointTrajectory:
+        ...
+    @property
+    def up_gravity_sensor(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) m/s^2
+        """
+class SimulatedExperiment:
+    """
+    One repetition: what was recorded, and what is true of it.
+    """
+    @property
+    def chain(self) -> ScrewChain:
+        """
+        of the arm as built
+        """
+    @property
+    def recording(self) -> Recording:
+        ...
+    @property
+    def sensor(self) -> AccelerometerModel:
+        """
+        as its readings are recorded
+        """
+    @property
+    def sheet(self) -> AccelerometerModel | None:
+        """
+        its calibration sheet, with an acquisition; else None
+        """
+    @property
+    def up_gravity_sensor(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) m/s^2, at rest at the chain's reference configuration
+        """
+class LineComparison:
+    """
+    One line against the truth; NaN where there is no estimate.
+    """
+    @property
+    def error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
+        """
+        (4,) d1, d2, p1, p2: estimate minus truth, rad and m
+        """
+    @property
+    def nees(self) -> float:
+        """
+        normalised error squared per degree of freedom: 1 is honest
+        """
+    @property
+    def std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
+        """
+        (4,) predicted
+        """
+class SensorComparison:
+    """
+    A sensor's figures against the truth, SI units.
+    """
+    @property
+    def error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[15, 1]"]:
+        """
+        (15,) in the order of sensor_figure_names(): estimate minus truth
+        """
+    @property
+    def std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[15, 1]"]:
+        """
+        (15,) predicted; 0 where a figure was taken as known
+        """
+class TrialOutcome(enum.Enum):
+    """
+    How a trial ended.
+    """
+    complete = ...
+    failed = ...
+    incomplete = ...
+class TrialConditions:
+    """
+    What is common to the trials of one cell of a campaign.
+
+    Parameters
+    ----------
+    experiment : Experiment
+        What is simulated.
+    method : JointCalibrationOptions or WholeArmOptions
+        How it is calibrated; each trial in one thread.
+    configurations : (P, n) ndarray of float64, rad or m
+        The workspace over which the end-point is compared.
+    """
+    def __init__(self, experiment: Experiment, method: JointCalibrationOptions | WholeArmOptions, configurations: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> None:
+        ...
+    @property
+    def configurations(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        (P, n) rad or m
+        """
+    @property
+    def experiment(self) -> Experiment:
+        ...
+    @property
+    def method(self) -> JointCalibrationOptions | WholeArmOptions:
+        ...
+class TrialResults:
+    """
+    Many trials, a row each; NaN where there is no figure.
+    """
+    @property
+    def converged(self) -> list[bool]:
+        ...
+    @property
+    def end_point_error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (N,) m, rms over the configurations
+        """
+    @property
+    def end_point_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        (N,) m, predicted
+        """
+    @property
+    def iterations(self) -> list[int]:
+        ...
+    @property
+    def line_error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        (N, 4 n) d1, d2, p1, p2 of each joint: estimate minus truth
+        """
+    @property
+    def line_nees(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        (N, n) per degree of freedom
+        """
+    @property
+    def line_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        (N, 4 n) predicted
+        """
+    @property
+    def outcome(self) -> list[TrialOutcome]:
+        ...
+    @property
+    def reason(self) -> list[str]:
+        """
+        why it failed, or the first joint without a line and why
+        """
+    @property
+    def sensor_error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        (N, 15) in the order of sensor_figure_names()
+        """
+    @property
+    def sensor_std(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        (N, 15) predicted
+        """
 def align_chain(target: ScrewChain, source: ScrewChain, length: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> ChainAlignment:
     """
     Place a chain on another by a rigid transform and offsets of its joints, least squares over the axes.
@@ -3370,6 +3576,39 @@ def common_normal(first: Line, second: Line, foot_hint: typing.Annotated[numpy.t
     -------
     CommonNormal
     """
+def compare_lines(calibration: JointCalibration, truth: ScrewChain) -> list[LineComparison]:
+    """
+    Errors of the estimated lines, base to tip.
+
+    Parameters
+    ----------
+    calibration : JointCalibration
+    truth : ScrewChain
+        At any reference configuration; it is carried to the estimate's.
+
+    Returns
+    -------
+    list of LineComparison
+        In the true line's tangent basis.
+
+    Raises
+    ------
+    InvalidInput
+        For another number of joints.
+    """
+def compare_sensor(calibration: JointCalibration, truth: AccelerometerModel) -> SensorComparison:
+    """
+    Errors of the estimated sensor figures.
+
+    Parameters
+    ----------
+    calibration : JointCalibration
+    truth : AccelerometerModel
+
+    Returns
+    -------
+    SensorComparison
+    """
 def concatenate(recordings: collections.abc.Sequence[Recording]) -> Recording:
     """
     Several recordings of one arm as one.
@@ -3638,6 +3877,26 @@ def encoder_step(positions: typing.Annotated[numpy.typing.NDArray[numpy.float64]
     float
         The least difference of two values each held for two samples in succession, rad or m; 0 where that exceeds
         1/512 of a revolution or the joint never moves.
+    """
+def end_point_error(estimate: ScrewChain, truth: ScrewChain, configurations: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> float:
+    """
+    Root mean square distance between estimated and true sensor position over configurations.
+
+    Parameters
+    ----------
+    estimate, truth : ScrewChain
+        Both are seen from the sensor's frame at the estimate's reference configuration.
+    configurations : (P, n) ndarray of float64, rad or m
+
+    Returns
+    -------
+    float
+        m.
+
+    Raises
+    ------
+    InvalidInput
+        For numbers of joints that differ, and for no configuration.
     """
 def end_point_std(chain: ScrewChain, line_covariance: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.f_contiguous"], configurations: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
     """
@@ -4476,6 +4735,29 @@ def rotation_log(rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float6
     """
     Rotation vector (3,), rad, of norm at most pi, of a proper rotation matrix (3, 3).
     """
+def run_trials(conditions: TrialConditions, seeds: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], threads: typing.SupportsInt | typing.SupportsIndex = 1, progress: collections.abc.Callable[[int], None] | None = None) -> TrialResults:
+    """
+    Simulate, calibrate, compare with the truth: one trial a seed, in threads of the core.
+
+    Parameters
+    ----------
+    conditions : TrialConditions
+    seeds : sequence of int
+        A trial is its conditions and its seed and nothing else.
+    threads : int
+        They change the time, never a bit of the result.
+    progress : callable, optional
+        Called on the calling thread with the number of trials done; what it raises stops the trials not yet begun.
+
+    Returns
+    -------
+    TrialResults
+
+    Raises
+    ------
+    InvalidInput
+        For conditions that cannot be simulated. Estimates that fail are results with their reason.
+    """
 def savgol_filter(x: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[n] or [n, k]", "flags.c_contiguous"], window_length: typing.SupportsInt | typing.SupportsIndex, polyorder: typing.SupportsInt | typing.SupportsIndex, deriv: typing.SupportsInt | typing.SupportsIndex = 0, delta: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> numpy.typing.NDArray[numpy.float64]:
     """
     Savitzky-Golay smoothing or derivative along axis 0, as ``scipy.signal.savgol_filter(mode='interp')``.
@@ -4535,6 +4817,10 @@ def segment(recording: Recording, options: SegmentationOptions = ...) -> Segment
     InvalidInput
         Where the recording's parts do not match, values are not finite or an option is out of its range.
     """
+def sensor_figure_names() -> list[str]:
+    """
+    Names of a sensor's figures in the order of SensorComparison: bias_x to second_order_z.
+    """
 def simulate(chain: ScrewChain, up_gravity_sensor: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], sensor: AccelerometerModel, trajectory: JointTrajectory, options: SimulationOptions = ...) -> Recording:
     """
     The recording a real arm and a real sensor would have made of a motion.
@@ -4563,6 +4849,25 @@ def simulate(chain: ScrewChain, up_gravity_sensor: typing.Annotated[numpy.typing
     References
     ----------
     Canepa, Hollerbach, Boelen 1994, sec. 4.
+    """
+def simulate_experiment(experiment: Experiment, seed: typing.SupportsInt | typing.SupportsIndex) -> SimulatedExperiment:
+    """
+    The repetition a seed stands for: an individual sensor on an individual arm, and what it recorded.
+
+    Parameters
+    ----------
+    experiment : Experiment
+    seed : int
+        The same seed gives the same bytes.
+
+    Returns
+    -------
+    SimulatedExperiment
+
+    Raises
+    ------
+    InvalidInput
+        As `simulate`; for standard deviations below zero, and a start_spread that is not one a joint.
     """
 def skew(v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """

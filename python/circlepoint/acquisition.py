@@ -89,31 +89,20 @@ class Acquisition:
     gyroscope_noise: float | None = None
     corrected: bool = True
 
-    def simulation_options(
-        self,
-        specification: circlepoint.AccelerometerSpecification,
-        sheet: circlepoint.AccelerometerModel,
-        encoder_counts: NDArray[np.float64],
-        seed: int,
-    ) -> circlepoint.SimulationOptions:
-        """Return the options that simulate this chain behind a sensor of a kind.
+    def noise_std(self, sensor: circlepoint.AccelerometerSpecification) -> float:
+        """Return white noise per sample, m/s^2: the surroundings', and the sensor's where it states no bands."""
+        return float(np.hypot(self.surroundings, 0.0 if sensor.noise_bands else sensor.noise_std))
 
-        Parameters
-        ----------
-        specification : AccelerometerSpecification
-            The kind: its noise by band (its noise per sample where it states no bands), response, range, resolution.
-        sheet : AccelerometerModel
-            The individual's calibration sheet.
-        encoder_counts : (n,) ndarray
-            A revolution; 0 for an exact encoder.
-        seed : int
+    def options(self, sensor: circlepoint.AccelerometerSpecification) -> circlepoint.AcquisitionOptions:
+        """Return the chain behind a sensor of a kind, which gives its noise by band, response and resolution.
+
+        The calibration sheet is the individual's and not in it.
         """
-        acquisition = circlepoint.AcquisitionOptions(
+        return circlepoint.AcquisitionOptions(
             oversampling=self.oversampling,
-            noise_bands=specification.noise_bands,
-            response_bands=specification.response_bands,
-            resolution=specification.resolution,
-            sheet=sheet if self.corrected else None,
+            noise_bands=sensor.noise_bands,
+            response_bands=sensor.response_bands,
+            resolution=sensor.resolution,
             signal_cutoff=self.chain["signal_cutoff"],
             temperature_cutoff=self.chain["temperature_cutoff"],
             filter_order=int(self.chain["filter_order"]),
@@ -125,18 +114,6 @@ class Acquisition:
             converter_range=self.chain["converter_range"],
             converter_gain=self.chain["converter_gain"],
             encoder_rate=self.chain["encoder_rate"],
-        )
-        own_noise = 0.0 if specification.noise_bands else specification.noise_std
-        return circlepoint.SimulationOptions(
-            noise_std=float(np.hypot(self.surroundings, own_noise)),
-            range=specification.range,
-            encoder_counts_per_revolution=encoder_counts,
-            compliance=self.compliance,
-            held_joints=self.held_joints,
-            temperature=self.temperature,
-            angular_velocity_noise_std=self.gyroscope_noise,
-            acquisition=acquisition,
-            seed=seed,
         )
 
 

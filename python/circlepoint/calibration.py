@@ -170,12 +170,16 @@ def calibrate(
     whole_arm = None
     if method == "whole-arm":
         whole_arm = circlepoint.calibrate_whole_arm(
-            recording, segmentation, _whole_arm_options(arm, recording, sensor, gravity, reference_configuration)
+            recording,
+            segmentation,
+            whole_arm_options(
+                arm, sensor, gravity, reference_configuration, two_clocks=recording.joint_timeline is not None
+            ),
         )
         joints = whole_arm.joints
     else:
         joints = circlepoint.calibrate_joints(
-            recording, segmentation, _options(arm, method, sensor, gravity, reference_configuration)
+            recording, segmentation, joint_options(arm, method, sensor, gravity, reference_configuration)
         )
     chain = joints.chain() if joints.complete() else None
     dh = None if chain is None else to_rows(chain, nominal_dh_chain(arm))
@@ -195,13 +199,14 @@ def calibrate(
     )
 
 
-def _options(
+def joint_options(
     arm: Arm,
     method: Method,
     sensor: circlepoint.AccelerometerSpecification | None,
     gravity: float,
     reference_configuration: ArrayLike | None,
 ) -> circlepoint.JointCalibrationOptions:
+    """Return the options of a method that goes joint by joint; arguments as those of `calibrate`."""
     options = circlepoint.JointCalibrationOptions()
     options.method = circlepoint.CalibrationMethod[method]
     options.sensor = load_sensor(UNSPECIFIED_SENSOR) if sensor is None else sensor
@@ -212,19 +217,21 @@ def _options(
     return options
 
 
-def _whole_arm_options(
+def whole_arm_options(
     arm: Arm,
-    recording: circlepoint.Recording,
     sensor: circlepoint.AccelerometerSpecification | None,
     gravity: float,
     reference_configuration: ArrayLike | None,
+    *,
+    two_clocks: bool = False,
 ) -> circlepoint.WholeArmOptions:
+    """Return the options of the whole-arm estimate; arguments as those of `calibrate`."""
     options = circlepoint.WholeArmOptions()
     options.sensor = load_sensor(UNSPECIFIED_SENSOR) if sensor is None else sensor
     options.sensor_is_known = sensor is not None
     options.gravity_magnitude = gravity
     options.joint_types = joint_types(arm)
-    if recording.joint_timeline is not None:
+    if two_clocks:
         # Two clocks: their alignment by the arm's activity is a start, the model of the motion finds them better.
         options.clock_offset = circlepoint.ParameterTreatment(std=CLOCK_OFFSET_STD)
         options.clock_rate = circlepoint.ParameterTreatment(std=CLOCK_RATE_STD)

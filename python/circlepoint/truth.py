@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -98,12 +98,7 @@ def end_point_error(truth: Document, estimate: circlepoint.ScrewChain, arm: Arm)
     Both are seen from the sensor's frame at the estimate's reference configuration.
     """
     configurations = workspace(arm, estimate.reference_configuration)
-    true_chain = circlepoint.rebase(truth_chain(truth), estimate.reference_configuration)
-    difference: Any = (
-        circlepoint.forward_kinematics(estimate, configurations)
-        - circlepoint.forward_kinematics(true_chain, configurations)
-    )[:, :3, 3]
-    return float(np.sqrt(np.mean(np.sum(difference**2, axis=1))))
+    return circlepoint.end_point_error(estimate, truth_chain(truth), configurations)
 
 
 def _joint_entries(names: tuple[str, ...] | list[str], chain: circlepoint.ScrewChain) -> list[Document]:

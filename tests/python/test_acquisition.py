@@ -183,12 +183,12 @@ def test_what_a_plan_leaves_out_is_the_papers_chain(tmp_path):
     plan = load_plan(path, ["pan", "tilt"])
     assert isinstance(plan.acquisition, Acquisition)
     assert plan.trajectory().sample_rate == 2000.0
-    options = plan.acquisition.simulation_options(load_sensor("qa700"), cp.AccelerometerModel(), np.zeros(2), 1)
+    options = plan.acquisition.options(load_sensor("qa700"))
     paper = cp.paper_acquisition()
     for name in ("signal_cutoff", "temperature_cutoff", "channel_skew", "converter_bits", "encoder_rate"):
-        assert getattr(options.acquisition, name) == pytest.approx(getattr(paper, name))
-    assert options.noise_std == 0.0
-    assert [band.rms for band in options.acquisition.noise_bands] == pytest.approx([80e-6, 800e-6])
+        assert getattr(options, name) == pytest.approx(getattr(paper, name))
+    assert plan.acquisition.noise_std(load_sensor("qa700")) == 0.0
+    assert [band.rms for band in options.noise_bands] == pytest.approx([80e-6, 800e-6])
 
 
 @pytest.mark.parametrize(

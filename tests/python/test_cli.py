@@ -25,7 +25,7 @@ def still_log(tmp_path):
     return [str(tmp_path / "log.csv"), "--arm", str(tmp_path / "arm.yaml")]
 
 
-@pytest.mark.parametrize("command", ["demo", "calibrate", "check", "simulate"])
+@pytest.mark.parametrize("command", ["demo", "calibrate", "check", "simulate", "campaign"])
 def test_every_command_has_help_with_examples(command, capsys):
     assert main([command, "--help"]) == 0
     printed = capsys.readouterr().out

@@ -91,6 +91,13 @@ void quantise(SamplesX& positions, const ScrewChain& chain, const Eigen::VectorX
   }
 }
 
+// Whether an arm at rest stays where it is: the instant before says all of this one.
+bool rests_on(const JointTrajectory& trajectory, Index i) {
+  return i > 0 && trajectory.position.row(i) == trajectory.position.row(i - 1) &&
+         trajectory.velocity.row(i) == trajectory.velocity.row(i - 1) &&
+         trajectory.acceleration.row(i) == trajectory.acceleration.row(i - 1);
+}
+
 // Everything that happens at the end-point, at every instant of the trajectory.
 struct EndPoint {
   AnalogueSignals signals;
@@ -117,14 +124,17 @@ EndPoint move(const ScrewChain& chain, const Eigen::Vector3d& up_gravity_sensor,
   signals.temperature.resize(options.temperature ? samples : 0);
   end_point.angular_velocity.resize(samples, 3);
   JointState state;
+  FrameMotion motion;
   for (Index i = 0; i < samples; ++i) {
-    state.position = followed.position.row(i);
-    state.velocity = followed.velocity.row(i);
-    state.acceleration = followed.acceleration.row(i);
-    if (options.compliance.size() > 0) {
-      state = add_give_way(chain, up_gravity_base, options.compliance, state);
+    if (!rests_on(followed, i)) {
+      state.position = followed.position.row(i);
+      state.velocity = followed.velocity.row(i);
+      state.acceleration = followed.acceleration.row(i);
+      if (options.compliance.size() > 0) {
+        state = add_give_way(chain, up_gravity_base, options.compliance, state);
+      }
+      motion = frame_motion(chain, state.position, state.velocity, state.acceleration);
     }
-    const FrameMotion motion = frame_motion(chain, state.position, state.velocity, state.acceleration);
     Eigen::Vector3d force = specific_force(motion, up_gravity_base);
     if (vibrates) {
       const Eigen::Vector3d velocity_sensor = motion.T_base_sensor.linear().transpose() * motion.velocity_base;

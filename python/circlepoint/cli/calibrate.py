@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from circlepoint._core import InvalidInput
 from circlepoint.atomic import require_writable_folder
-from circlepoint.calibration import Calibration, calibrate
-from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, numbers, progress, recording_of
-from circlepoint.document import with_description, with_reading, write_document
-from circlepoint.export import write_description
+from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, numbers, progress
 from circlepoint.findings import few_gaps
+from circlepoint.result_folder import CalibrationJob, calibrate_into
 from circlepoint.sensor_presets import load_sensor
 
 if TYPE_CHECKING:
@@ -22,9 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
 
-    import circlepoint
     from circlepoint.arm import Arm
-    from circlepoint.recording_io import LoadedRecording
 
 METHODS = ("whole-arm", "joint", "position", "velocity")
 
@@ -83,14 +78,21 @@ def run(options: argparse.Namespace) -> int:
     arm = arm_of(options)
     _require_reference(options.reference_configuration, arm)
     sensor = None if options.sensor is None else load_sensor(options.sensor)
+    job = CalibrationJob(
+        logs=tuple(options.logs),
+        arm_file=options.arm,
+        base=options.base,
+        tip=options.tip,
+        columns=options.columns,
+        method=options.method,
+        sensor=sensor,
+        gravity=options.gravity,
+        reference_configuration=options.reference_configuration,
+        joint_topic=options.joint_topic,
+        imu_topic=options.imu_topic,
+    )
     with progress(3, quiet=options.json) as begin:
-        begin("reading")
-        loaded = recording_of(options, arm)
-        begin("estimating")
-        calibration = _estimate(options, loaded, arm, sensor)
-        begin("writing")
-        _write(options.out, calibration)
-        write_description(options.out, options.arm, calibration.document, base=options.base, tip=options.tip)
+        calibration = calibrate_into(options.out, job, arm, begin)
     document = calibration.document
     if options.json:
         print(json.dumps(document, indent=1, allow_nan=False))
@@ -105,32 +107,6 @@ def run(options: argparse.Namespace) -> int:
             file=sys.stderr,
         )
     return 1 if missing else 0
-
-
-def _estimate(
-    options: argparse.Namespace,
-    loaded: LoadedRecording,
-    arm: Arm,
-    sensor: circlepoint.AccelerometerSpecification | None,
-) -> Calibration:
-    calibration = calibrate(
-        loaded.recording,
-        arm,
-        method=options.method,
-        sensor=sensor,
-        gravity=options.gravity,
-        reference_configuration=options.reference_configuration,
-    )
-    document = with_reading(calibration.document, loaded)
-    return replace(calibration, document=with_description(document, options.arm, options.base, options.tip))
-
-
-def _write(folder: Path, calibration: Calibration) -> None:
-    from circlepoint.report import write_report  # noqa: PLC0415  (matplotlib is slow to load)
-
-    folder.mkdir(parents=True, exist_ok=True)
-    write_report(folder, calibration)
-    write_document(folder / "calibration.json", calibration.document)
 
 
 def _print_tables(document: Mapping[str, Any], folder: Path) -> None:

@@ -9,14 +9,12 @@ import traceback
 from typing import TYPE_CHECKING
 
 import circlepoint
-from circlepoint.cli import calibrate, check, demo, export, reproduce, simulate
+from circlepoint.cli import calibrate, campaign, check, demo, export, reproduce, simulate
+from circlepoint.failures import BAD_INPUT, explain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-DONE = 0
-DATA_INSUFFICIENT = 1
-BAD_INPUT = 2
 INTERRUPTED = 130
 PIPE_CLOSED = 141
 
@@ -64,23 +62,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Exception as error:  # noqa: BLE001  (no traceback reaches a user who did not ask for it)
         if options.debug:
             traceback.print_exc()
-        return _fail(*_explain(error))
+        return _fail(*explain(error))
     return status
-
-
-def _explain(error: Exception) -> tuple[str, int]:
-    """Return what to tell the user of a failure, and the exit status."""
-    if isinstance(error, circlepoint.NotIdentifiable | circlepoint.DidNotConverge):
-        return str(error), DATA_INSUFFICIENT
-    if isinstance(error, circlepoint.Error):
-        return str(error), BAD_INPUT
-    if isinstance(error, OSError):
-        place = f"{error.filename}: " if error.filename else ""
-        return f"{place}{error.strerror or error}", BAD_INPUT
-    if isinstance(error, MemoryError):
-        return "not enough memory for this recording; split it, or thin it out", BAD_INPUT
-    what = f"{type(error).__name__}: {error}"
-    return f"a fault in circlepoint itself, please report it: {what} (--debug shows where)", BAD_INPUT
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -94,7 +77,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"circlepoint {circlepoint.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (demo, calibrate, check, simulate, export, reproduce):
+    for command in (demo, calibrate, check, simulate, export, reproduce, campaign):
         command.register(commands, common)
     return parser
 

@@ -47,11 +47,9 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
-    import numpy as np  # noqa: PLC0415  (keeps `circlepoint --help` quick)
-
-    import circlepoint  # noqa: PLC0415
-    from circlepoint.coupling import following, leading  # noqa: PLC0415
-    from circlepoint.nominal import nominal_chain  # noqa: PLC0415
+    import circlepoint  # noqa: PLC0415  (keeps `circlepoint --help` quick)
+    from circlepoint.coupling import leading  # noqa: PLC0415
+    from circlepoint.experiment import Setting, make_experiment  # noqa: PLC0415
     from circlepoint.protocol import load_plan  # noqa: PLC0415
     from circlepoint.recording_files import recording_stem, require_format, write_recording  # noqa: PLC0415
     from circlepoint.sensor_presets import load_sensor  # noqa: PLC0415
@@ -64,32 +62,20 @@ def run(options: argparse.Namespace) -> int:
         raise InvalidInput(f"{options.arm}: has no `dh` or `lines`; a simulation needs the arm's nominal parameters")
     specification = load_sensor(options.sensor)
     plan = load_plan(options.plan, arm.driven.joint_names, [joint.type for joint in arm.driven.joints])
-    rest = arm.follow(plan.rest[None])[0]
-    nominal = nominal_chain(arm, rest)
-    up_base = np.array([0.0, 0.0, options.gravity])
-    up_sensor = circlepoint.forward_kinematics(nominal, rest)[:3, :3].T @ up_base
-    chain = circlepoint.rebase(nominal, rest)
-    counts = np.array([counts or 0.0 for counts in arm.encoder_counts or ()])
-    drawn = circlepoint.draw_calibrated_accelerometer(specification, circlepoint.derive_seed(options.seed, 0))
-    noise_seed = circlepoint.derive_seed(options.seed, 1)
-    sheet = None
-    if plan.acquisition is None:
-        actual = sensor = drawn.residual
-        simulation = circlepoint.SimulationOptions(
-            noise_std=specification.noise_std,
-            range=specification.range,
-            encoder_counts_per_revolution=counts,
-            seed=noise_seed,
-        )
-    else:
-        actual, sheet = drawn.actual, drawn.sheet
-        sensor = drawn.residual if plan.acquisition.corrected else actual
-        simulation = plan.acquisition.simulation_options(specification, sheet, counts, noise_seed)
+    experiment = make_experiment(arm, plan, specification, setting=Setting(gravity=options.gravity))
     with progress(2, quiet=options.json) as begin:
         begin("simulating")
-        recording = circlepoint.simulate(chain, up_sensor, actual, following(arm, plan.trajectory()), simulation)
+        simulated = circlepoint.simulate_experiment(experiment, options.seed)
+        recording = simulated.recording
         begin("writing")
-        truth = truth_document(arm, chain, up_sensor.tolist(), sensor, options.seed, sheet=sheet)
+        truth = truth_document(
+            arm,
+            simulated.chain,
+            simulated.up_gravity_sensor.tolist(),
+            simulated.sensor,
+            options.seed,
+            sheet=simulated.sheet,
+        )
         text = json.dumps(truth, indent=1, allow_nan=False) + "\n"
         truth_path = options.out.with_name(f"{recording_stem(options.out)}.truth.json")
         options.out.parent.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,321 @@
+"""Calibrates a fleet: every log by the same job as ``circlepoint calibrate``, every outcome a row, resumable.
+
+DIR/results/NAME is the result folder of a log, DIR/rows/NAME.json its row: written last, it says that the log is
+finished. DIR/fleet.parquet (a row a log) and DIR/joints.parquet (a row a joint) are put together from the rows.
+"""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import shutil
+import tempfile
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import pyarrow as pa
+
+from circlepoint._core import InvalidInput
+from circlepoint.arm import load_arm
+from circlepoint.atomic import write_atomically
+from circlepoint.campaign import folder as folders
+from circlepoint.campaign.cluster import on_cluster
+from circlepoint.document import Document, generator_entry
+from circlepoint.failures import explain
+from circlepoint.report.rounding import ABSENT, significant
+from circlepoint.result_folder import CalibrationJob, calibrate_into
+from circlepoint.sensor_presets import load_sensor
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from circlepoint.campaign.fleet_config import Fleet, FleetLog
+    from circlepoint.campaign.run import Watcher
+
+SCHEMA_NAME = "circlepoint/fleet-summary/1"
+COMPLETE, INCOMPLETE, FAILED = "complete", "incomplete", "failed"
+
+_LOG_COLUMNS = {
+    "name": pa.string(),
+    "outcome": pa.string(),
+    "error": pa.string(),
+    "arm": pa.string(),
+    "method": pa.string(),
+    "logs": pa.list_(pa.string()),
+    "joints": pa.int32(),
+    "missing": pa.list_(pa.string()),
+    "samples": pa.int64(),
+    "duration": pa.float64(),
+    "converged": pa.bool_(),
+    "noise_std": pa.float64(),
+    "normalised_residual_rms": pa.float64(),
+    "end_point_rms": pa.float64(),
+    "end_point_max": pa.float64(),
+    "direction_std": pa.float64(),
+    "point_std": pa.float64(),
+    "direction_difference": pa.float64(),
+    "point_difference": pa.float64(),
+    "findings": pa.list_(pa.string()),
+}
+_JOINT_COLUMNS = {
+    "name": pa.string(),
+    "joint": pa.string(),
+    "type": pa.string(),
+    **{f"direction_{axis}": pa.float64() for axis in "xyz"},
+    "direction_std": pa.float64(),
+    **{f"point_{axis}": pa.float64() for axis in "xyz"},
+    "point_std": pa.float64(),
+    "direction_difference": pa.float64(),
+    "point_difference": pa.float64(),
+    "reason": pa.string(),
+}
+
+
+class Calibrated(NamedTuple):
+    """What became of a log: its row, its joints' rows, and the files of its result folder."""
+
+    row: Document
+    joints: list[Document]
+    files: dict[str, bytes]
+
+
+def run_fleet(
+    fleet: Fleet, out: Path, *, workers: int = 1, scheduler: str | None = None, watcher: Watcher | None = None
+) -> Document:
+    """Calibrate what is not finished yet, and return the summary of all.
+
+    Parameters
+    ----------
+    fleet : Fleet
+    out : Path
+    workers : int
+        Processes of this machine.
+    scheduler : str, optional
+        Address of a Dask scheduler; its workers must see the logs under the same paths.
+    watcher : Watcher, optional
+
+    Raises
+    ------
+    InvalidInput
+        When a log was calibrated there otherwise, or another process is writing to the folder.
+    """
+    with folders.only_writer(out):
+        folders.claim(out, {"config": {"fleet": True}, "files": {}}, fleet.path)
+        folders.remove_unfinished(out)
+        waiting = [log for log in fleet.logs if not _is_finished(out, log, fleet.path)]
+        if watcher is not None:
+            watcher.begin(len(fleet.logs), len(fleet.logs) - len(waiting))
+        if scheduler is not None and waiting:
+            run = on_cluster(scheduler, _on_worker, None, waiting)
+        elif min(workers, len(waiting)) <= 1:
+            run = ((log, calibrate_log(log)) for log in waiting)
+        else:
+            run = _in_processes(waiting, min(workers, len(waiting)))
+        for log, calibrated in run:
+            _keep(out, log, calibrated)
+            if watcher is not None:
+                watcher.advance(1)
+        return _collect(fleet, out)
+
+
+def calibrate_log(log: FleetLog) -> Calibrated:
+    """Calibrate one log; whatever is wrong with it is a row that says so."""
+    row: Document = dict.fromkeys(_LOG_COLUMNS)
+    row |= {
+        "name": log.name,
+        "outcome": FAILED,
+        "method": log.method,
+        "logs": [str(path) for path in log.logs],
+        "missing": [],
+        "findings": [],
+    }
+    with tempfile.TemporaryDirectory(prefix="circlepoint-") as name:
+        folder = Path(name)
+        try:
+            arm = load_arm(log.arm, base=log.base, tip=log.tip)
+            row |= {"arm": arm.name, "joints": len(arm.joints)}
+            job = CalibrationJob(
+                logs=log.logs,
+                arm_file=log.arm,
+                base=log.base,
+                tip=log.tip,
+                columns=log.columns,
+                method=log.method,
+                sensor=None if log.sensor is None else load_sensor(log.sensor),
+                gravity=log.gravity,
+                joint_topic=log.joint_topic,
+                imu_topic=log.imu_topic,
+            )
+            document = calibrate_into(folder, job, arm).document
+        except Exception as error:  # noqa: BLE001  (one bad log does not stop the rest)
+            return Calibrated({**row, "error": explain(error)[0]}, [], {})
+        files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    return Calibrated(
+        row | _log_figures(document), [_joint_figures(log.name, joint) for joint in document["joints"]], files
+    )
+
+
+def format_fleet(summary: Document) -> str:
+    """Return a table with a row a log."""
+    rows = [("log", "arm", "outcome", "end-point, mm", "direction, mrad", "point, mm", "off nominal, mm", "")]
+    for row in summary["logs"]:
+        missing = f"missing: {', '.join(row['missing'])}" if row["missing"] else ""
+        rows.append(
+            (
+                row["name"],
+                row["arm"] or ABSENT,
+                row["outcome"],
+                *(
+                    ABSENT if row[key] is None else significant(1e3 * row[key])
+                    for key in ("end_point_rms", "direction_std", "point_std", "point_difference")
+                ),
+                row["error"] or missing,
+            )
+        )
+    widths = [max(len(row[column]) for row in rows) for column in range(7)]
+    return "\n".join(
+        "  ".join(
+            [
+                text.ljust(width) if k < 3 else text.rjust(width)
+                for k, (text, width) in enumerate(zip(row, widths, strict=False))
+            ]
+            + [row[7]]
+        ).rstrip()
+        for row in rows
+    )
+
+
+def _log_figures(document: Document) -> Document:
+    joints, fit, recording = document["joints"], document["fit"], document["recording"]
+    missing = [joint["name"] for joint in joints if joint["direction_sensor"] is None]
+    end_point = document["end_point"] or {}
+    nominal = [joint["nominal"] for joint in joints if joint.get("nominal")]
+    return {
+        "outcome": INCOMPLETE if missing else COMPLETE,
+        "missing": missing,
+        "samples": recording["samples"],
+        "duration": recording["duration"],
+        "converged": fit["converged"],
+        "noise_std": fit["noise_std"],
+        "normalised_residual_rms": fit["normalised_residual_rms"],
+        "end_point_rms": end_point.get("rms"),
+        "end_point_max": end_point.get("max"),
+        "direction_std": _largest(joint["direction_std"] for joint in joints),
+        "point_std": _largest(joint["point_std"] for joint in joints),
+        "direction_difference": _largest(entry["direction_difference"] for entry in nominal),
+        "point_difference": _largest(entry["point_difference"] for entry in nominal),
+        "findings": [finding["message"] for finding in document["findings"]],
+    }
+
+
+def _joint_figures(name: str, joint: Document) -> Document:
+    nominal = joint.get("nominal") or {}
+    row: Document = {"name": name, "joint": joint["name"], "type": joint["type"], "reason": joint["reason"]}
+    for what in ("direction", "point"):
+        vector = joint[f"{what}_sensor"] or (None, None, None)
+        row |= {f"{what}_{axis}": value for axis, value in zip("xyz", vector, strict=True)}
+        row |= {f"{what}_std": joint[f"{what}_std"], f"{what}_difference": nominal.get(f"{what}_difference")}
+    return row
+
+
+def _largest(values: Any) -> float | None:
+    return max((value for value in values if value is not None), default=None)
+
+
+def _row_path(out: Path, log: FleetLog) -> Path:
+    return out / "rows" / f"{log.name}.json"
+
+
+def _is_finished(out: Path, log: FleetLog, source: Path) -> bool:
+    """Return whether a log is done; one that failed is done again when anything about it has changed."""
+    path = _row_path(out, log)
+    try:
+        kept = json.loads(path.read_text(encoding="utf-8"))
+        settings, outcome = kept["settings"], kept["row"]["outcome"]
+    except FileNotFoundError:
+        return False
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InvalidInput(f"{path}: is not a row of a fleet ({type(error).__name__}); take it away") from error
+    now = log.settings()
+    changed = [key for key in now if now[key] != settings.get(key)]
+    if changed and outcome != FAILED:
+        raise InvalidInput(
+            f"{source}: {log.name}: {changed[0]}: is not what it was when it was calibrated in {out}; put it back, "
+            f"give another folder, or take {path} away to have it calibrated again"
+        )
+    return not changed
+
+
+def _keep(out: Path, log: FleetLog, calibrated: Calibrated) -> None:
+    """Write a log's result folder, then its row."""
+    target = out / "results" / log.name
+    fresh = target.with_name(f".{log.name}.new")
+    shutil.rmtree(fresh, ignore_errors=True)
+    shutil.rmtree(target, ignore_errors=True)
+    for name, content in calibrated.files.items():
+        (fresh / name).parent.mkdir(parents=True, exist_ok=True)
+        (fresh / name).write_bytes(content)
+    if calibrated.files:
+        fresh.rename(target)
+    kept = {"settings": log.settings(), "row": calibrated.row, "joints": calibrated.joints}
+    path = _row_path(out, log)
+    path.parent.mkdir(exist_ok=True)
+    write_atomically(path, (json.dumps(kept, indent=1, ensure_ascii=False) + "\n").encode())
+
+
+def _collect(fleet: Fleet, out: Path) -> Document:
+    kept = [json.loads(_row_path(out, log).read_text(encoding="utf-8")) for log in fleet.logs]
+    rows = [entry["row"] for entry in kept]
+    folders.write_table(out / "fleet.parquet", _table(rows, _LOG_COLUMNS))
+    joints = [joint for entry in kept for joint in entry["joints"]]
+    folders.write_table(out / "joints.parquet", _table(joints, _JOINT_COLUMNS))
+    return {
+        "schema": SCHEMA_NAME,
+        "generator": generator_entry(),
+        "fleet": fleet.name,
+        **{outcome: sum(row["outcome"] == outcome for row in rows) for outcome in (COMPLETE, INCOMPLETE, FAILED)},
+        "logs": rows,
+    }
+
+
+def _table(rows: Sequence[Document], columns: dict[str, pa.DataType]) -> pa.Table:
+    return pa.table({name: pa.array([row[name] for row in rows], kind) for name, kind in columns.items()})
+
+
+def _on_worker(_: None, log: FleetLog) -> Calibrated:
+    return calibrate_log(log)
+
+
+def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog, Calibrated]]:
+    """Calibrate in processes; a log that takes its process down fails alone."""
+    suspects: list[FleetLog] = []
+    with _pool(workers) as pool:
+        running = {pool.submit(calibrate_log, log): log for log in logs}
+        while running:
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                log = running.pop(future)
+                try:
+                    calibrated = future.result()
+                except BrokenProcessPool:
+                    suspects.append(log)
+                else:
+                    yield log, calibrated
+    for log in suspects:
+        with _pool(1) as pool:
+            try:
+                yield log, pool.submit(calibrate_log, log).result()
+            except BrokenProcessPool:
+                yield log, _taken_down(log)
+
+
+def _taken_down(log: FleetLog) -> Calibrated:
+    row = dict.fromkeys(_LOG_COLUMNS) | {"name": log.name, "outcome": FAILED, "method": log.method}
+    row |= {"logs": [str(path) for path in log.logs], "missing": [], "findings": []}
+    row["error"] = "its process was killed, likely for want of memory; thin the log out, or give fewer workers"
+    return Calibrated(row, [], {})
+
+
+def _pool(workers: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))

@@ -1,0 +1,51 @@
+"""Where the example campaign is, and what a campaign's folder holds."""
+
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "campaign"
+CONFIG = """\
+arm: {file: arm.yaml, up: [0.4, -0.3, 0.8]}
+sensor: qa700
+plan: plan.yaml
+noise: {vibration: [0.0, 0.05]}
+method: [joint, velocity]
+trials: 6
+seed: 3
+batch: 4
+"""
+PLAN = """\
+rate_hz: 125
+rest_deg: -60
+pause: 0.4
+tests:
+  - joint: all
+    static: {steps: 4, span_deg: 100, dwell: 0.6, move: 0.4, return: 0.8}
+    dynamic: {frequency_hz: 0.5, span_deg: 100, duration: 2}
+"""
+
+
+def write_campaign(folder):
+    """Write a campaign's file and those it names; return it."""
+    (folder / "arm.yaml").write_text((EXAMPLE / "arm.yaml").read_text())
+    (folder / "plan.yaml").write_text(PLAN)
+    path = folder / "campaign.yaml"
+    path.write_text(CONFIG)
+    return path
+
+
+def contents(folder):
+    """Bytes of every file that is a result."""
+    kept = (".parquet", ".json", ".svg", ".png")
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.suffix in kept and not path.name.startswith(".")
+    }
+
+
+def table_of(folder, cell):
+    """The table of a cell, all batches."""
+    return pa.concat_tables(pq.read_table(path) for path in sorted(folder.glob(f"trials/cell-{cell:04d}/*.parquet")))
