@@ -1,9 +1,9 @@
 """Times complete calibrations against careful NumPy + SciPy, and forward kinematics against Pinocchio and KDL.
 
   single joint   rests and eq. (11) of one joint, readings in memory to its axis with covariance
-  whole arm      the demonstration's arm, seven joints, 1e5 samples at 500 Hz, to all lines and the sensor's errors; ours finds the
-                 tests and its start values itself, estimates the noise's colour, holds every stretch out once and names what the
-                 data do not show. SciPy's starts at the nominal arm and does none of it.
+  whole arm      the demonstration's arm, seven joints, 1e5 samples at 500 Hz, to all lines and the sensor's errors;
+                 ours finds the tests and its start values itself, estimates the noise's colour, holds every stretch
+                 out once and names what the data do not show. SciPy's starts at the nominal arm and does none of it.
   forward kinematics of many configurations of the seven joints
 
 The answers are compared before the times: both within 5 standard deviations of the truth, or this program fails.
@@ -104,7 +104,9 @@ def whole_arm(rounds: int, budget: float) -> Row:
     true = [axis.line for axis in chain.axes]
     mine, other = ours(), theirs()
     std = np.array([p.std for p in mine.parameters if p.name.startswith("joint")])
-    agree("whole arm", worst([axis.line for axis in mine.joints.chain().axes], true, std), worst(other.lines, true, std))
+    agree(
+        "whole arm", worst([axis.line for axis in mine.joints.chain().axes], true, std), worst(other.lines, true, std)
+    )
     print(f"whole arm: {mine.rows} rows, {mine.iterations} iterations; NumPy + SciPy {3 * other.rows} rows, "
           f"{other.evaluations} evaluations and as many Jacobians at most")  # fmt: skip
     samples = len(recording.time)
@@ -164,7 +166,11 @@ def link_frames(chain: cp.ScrewChain) -> list[np.ndarray]:
         # Carried to zero by the joints before it: the pose of the tip with those at zero, the rest at the reference.
         mixed = reference.copy()
         mixed[:joint] = 0.0
-        frames.append(cp.forward_kinematics(chain, mixed[None])[0] @ np.linalg.inv(cp.forward_kinematics(chain, reference[None])[0]) @ frame)
+        frames.append(
+            cp.forward_kinematics(chain, mixed[None])[0]
+            @ np.linalg.inv(cp.forward_kinematics(chain, reference[None])[0])
+            @ frame
+        )
     frames.append(cp.forward_kinematics(chain, np.zeros((1, JOINTS)))[0])
     return frames
 

@@ -1,8 +1,8 @@
 """Times circlepoint's kernels against what a user would pick instead, and against the machine's limits.
 
-The limits are measured in the same run: a fresh copy of the same array; fresh memory of its size filled once, which is
-page faults for the most part; reading it once (BLAS dot); and the latency of the filter's recursion (one channel through
-one section, in the first-level cache, where nothing else takes time). A limit is printed as its share of our time.
+The limits are measured in the same run: a fresh copy of the same array; fresh memory of its size filled once, which
+is page faults for the most part; reading it once (BLAS dot); and the latency of the filter's recursion (one channel
+through one section, in the first-level cache, where nothing else takes time). A limit is printed as its share of ours.
 
 The normal equations of one joint's test ("rotate, project, accumulate") are compared with three ways to write them:
   NumPy, by samples    readings turned to the joint's frame by every sample's own rotation and projected to the plane of
@@ -50,7 +50,8 @@ def signal_rows(samples: int, channels: int, order: str, latency: float, budget:
         "read": {"read": lambda: np.dot(x.ravel(), x.ravel())},
     }
     table: list[tuple[str, Call, Call, str]] = [
-        ("sosfiltfilt order 4", lambda: cp.sosfiltfilt(SOS, c(a)), lambda: scipy.signal.sosfiltfilt(SOS, a, axis=0), "recursion"),
+        ("sosfiltfilt order 4", lambda: cp.sosfiltfilt(SOS, c(a)),
+         lambda: scipy.signal.sosfiltfilt(SOS, a, axis=0), "recursion"),
         ("cumulative_trapezoid", lambda: cp.cumulative_trapezoid(c(a), dx=0.002, initial=0),
          lambda: scipy.integrate.cumulative_trapezoid(a, dx=0.002, axis=0, initial=0), "copy"),
         ("cumulative_simpson", lambda: cp.cumulative_simpson(c(a), dx=0.002, initial=0),

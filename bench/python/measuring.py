@@ -1,8 +1,8 @@
 """Calls timed in turns, their ratios, and what is kept of them.
 
-Everything runs in one process and on one thread (import this module before NumPy), calls of all sides in turns, so that load
-on the machine meets them alike; printed are the median of the ratio of neighbouring calls and its quartiles. Times are
-processor time, page faults included, which other load disturbs less than the clock on the wall.
+Everything runs in one process and on one thread (import this module before NumPy), calls of all sides in turns, so that
+load on the machine meets them alike; printed are the median of the ratio of neighbouring calls and its quartiles. Times
+are processor time, page faults included, which other load disturbs less than the clock on the wall.
 """
 
 import os
@@ -30,7 +30,8 @@ except ModuleNotFoundError:
     numba = None
 
 Call = Callable[[], object]
-HEADING = f"{'kernel':24}{'against':26}{'samples':>13} {'':2}{'ours us':>13}{'theirs us':>13}{'ratio':>8}  {'quartiles':17}limit"
+HEADING = f"{'kernel':24}{'against':26}{'samples':>13} {'':2}{'ours us':>13}{'theirs us':>13}{'ratio':>8}"
+HEADING += f"  {'quartiles':17}limit"
 
 
 @dataclass
@@ -59,8 +60,8 @@ class Row:
         """One line of the table; limits as their share of our time."""
         quartiles = f"{self.quartiles[0]:.1f} .. {self.quartiles[1]:.1f}"
         limits = ", ".join(f"{100 * us / self.ours_us:.0f} % {name}" for name, us in self.limits.items())
-        return (f"{self.kernel:24}{self.against:26}{self.shape:>13} {self.order:2}{self.ours_us:13.2f}{self.theirs_us:13.1f}"
-                f"{self.ratio:8.1f}  {quartiles:17}{limits}")  # fmt: skip
+        return (f"{self.kernel:24}{self.against:26}{self.shape:>13} {self.order:2}{self.ours_us:13.2f}"
+                f"{self.theirs_us:13.1f}{self.ratio:8.1f}  {quartiles:17}{limits}")  # fmt: skip
 
 
 def seconds(call: Call, times: int = 1) -> float:
@@ -72,12 +73,13 @@ def seconds(call: Call, times: int = 1) -> float:
 
 
 def interleaved(calls: Sequence[Call], budget: float, fewest: int = 5) -> np.ndarray:
-    """Return times of the calls, (rounds, calls): `fewest` to 201 rounds in about `budget` seconds."""
+    """Return times of the calls, (rounds, calls), for about `budget` seconds: `fewest` (3 of 5 s) to 201 rounds."""
     gc.disable()
     try:
         first = [seconds(call) for call in calls]
         repeats = [max(1, round(2e-4 / max(t, 1e-7))) for t in first]
-        rounds = int(np.clip(budget / max(sum(r * t for r, t in zip(repeats, first, strict=True)), 1e-6), fewest, 201))
+        once = max(sum(r * t for r, t in zip(repeats, first, strict=True)), 1e-6)
+        rounds = int(np.clip(budget / once, fewest if once < 5.0 else min(fewest, 3), 201))
         return np.array([[seconds(c, r) for c, r in zip(calls, repeats, strict=True)] for _ in range(rounds)])
     finally:
         gc.enable()
@@ -93,8 +95,8 @@ def compared(kernel: str, against: str, shape: tuple[int, int], order: str, ours
     measured = dict(zip(called, medians[2:], strict=True))
     shares = {name: float(1e6 * measured.get(name, limit)) for name, limit in limits.items()}
     low, high = np.percentile(ratio, [25, 75])
-    return Row(kernel, against, *shape, order, len(times), float(1e6 * medians[0]), float(1e6 * medians[1]), float(np.median(ratio)),
-               (float(low), float(high)), shares)  # fmt: skip
+    return Row(kernel, against, *shape, order, len(times), float(1e6 * medians[0]), float(1e6 * medians[1]),
+               float(np.median(ratio)), (float(low), float(high)), shares)  # fmt: skip
 
 
 def machine() -> dict[str, str]:

@@ -1,7 +1,7 @@
 """Calibrations as a careful user would write them with NumPy and SciPy: of one joint, and of a whole arm.
 
-Both see what ours sees (a Recording) and the same model; neither estimates its noise, finds tests, holds stretches out or names
-what the data do not show, which ours do.
+Both see what ours sees (a Recording) and the same model; neither estimates its noise, finds tests, holds stretches out
+or names what the data do not show, which ours do.
 """
 
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ def single_joint(recording: cp.Recording, joint: int, cutoff: float) -> cp.Line:
     information = x.T @ x
     factor = np.linalg.cholesky(information).T
     target = np.linalg.solve(information, x.T @ y)
-    constant, cosine, sine, tangential, centripetal = target
+    constant, cosine, sine, _, centripetal = target
 
     def model(p: np.ndarray) -> np.ndarray:
         z = p[:3] / np.linalg.norm(p[:3])
@@ -99,7 +99,7 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def sensor_kinematics(lines: list[cp.Line], reference: np.ndarray, motion: Motion) -> tuple[np.ndarray, ...]:
-    """Return rotation (3, 3, m) sensor to base, angular velocity and acceleration of the sensor's origin (3, m), in base.
+    """Return rotation (3, 3, m) sensor to base; angular velocity, acceleration of the sensor's origin (3, m), in base.
 
     The base frame is the sensor frame at the reference configuration; product of exponentials from base to tip.
     """
@@ -184,7 +184,11 @@ def whole_arm(recording: cp.Recording, nominal: cp.ScrewChain, sensor: cp.Accele
         return np.concatenate(
             [
                 errors / prior_std,
-                [mean / sensor.percussion_distance_std, (np.linalg.norm(gravity) - magnitude) / GRAVITY_STD, p[-1] / 0.005],
+                [
+                    mean / sensor.percussion_distance_std,
+                    (np.linalg.norm(gravity) - magnitude) / GRAVITY_STD,
+                    p[-1] / 0.005,
+                ],
             ]
         )
 
@@ -212,7 +216,9 @@ def whole_arm(recording: cp.Recording, nominal: cp.ScrewChain, sensor: cp.Accele
     # Gravity as the first still samples have it, in the base frame.
     rotation = sensor_kinematics(start_lines, reference, motion)[0]
     start[4 * joints : 4 * joints + 3] = np.einsum("ijm,jm->im", rotation, readings.T)[:, :20].mean(axis=1)
-    solution = scipy.optimize.least_squares(residuals, start, jacobian, method="trf", x_scale="jac", xtol=1e-10, ftol=1e-10)
+    solution = scipy.optimize.least_squares(
+        residuals, start, jacobian, method="trf", x_scale="jac", xtol=1e-10, ftol=1e-10
+    )
     p = solution.x
     std = np.sqrt(np.diag(np.linalg.inv(solution.jac.T @ solution.jac)))
     lines = [cp.retract(line, p[4 * i : 4 * i + 4]) for i, line in enumerate(start_lines)]
