@@ -228,7 +228,9 @@ void filter_zero_phase(const Cascade& cascade, Scratch& scratch, const RoomySamp
                        const RoomySamples& tail, SamplesX& y) {
   ZeroPhase filter(cascade, scratch, head, x, tail, y);
   const std::optional<Index> memory = cascade.memory();
-  if (!memory || x.rows() < 6 * *memory || !filter.in_one_pass(*memory)) {
+  // What beginning in the middle costs is won back at once where one register holds all channels, and on long signals otherwise.
+  const Index fewest = x.cols() <= row_room ? 6 : 50;
+  if (!memory || x.rows() < fewest * *memory || !filter.in_one_pass(*memory)) {
     filter.in_two_passes();
   }
 }

@@ -10,8 +10,8 @@
 // The zero-phase filter extends the signal at both ends, starts each direction in the steady state of its first sample,
 // and has the squared magnitude of the cascade and no phase. It fails when the signal is not longer than the extension
 // at one end, or when a section has a pole at z = 1 and thus no steady state.
-// A signal of 6 times the filter's memory and more is filtered in one pass over memory, block by block, both its halves side by
-// side: the second half, and backwards each block, starts from where as many samples as the filter remembers lead from any state,
+// A signal of 6 times the filter's memory and more (of 5 channels and more, 50 times) is filtered in one pass, both its halves side
+// by side: the second half, and backwards each block, starts from where as many samples as the filter remembers lead from any state,
 // which leaves out less than 1e-18 of the signal. A value that is not finite spoils its whole channel, as in SciPy.
 
 #include <Eigen/Core>
