@@ -23,6 +23,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter, NullLocator
 from measuring import machine, seconds
 
 import circlepoint as cp
@@ -142,8 +143,9 @@ def arms(
         stages["segment"].append(seconds(lambda r=recording: cp.segment(r)))
         stages["calibrate_joints"].append(seconds(lambda r=recording, s=segmentation: cp.calibrate_joints(r, s)))
         stages["calibrate_whole_arm"].append(whole_arm_seconds(recording))
-    exponents = {"calibrate_whole_arm": expected, "calibrate_joints": min(expected, 2.0)}
-    return [Growth(name, against, at, values, expected=exponents.get(name, 1.0)) for name, values in stages.items()]
+    # A tested joint is a column more and rows more.
+    exponents = {"calibrate_whole_arm": expected, "calibrate_joints": min(expected, 2.0), "segment": min(expected, 2.0)}
+    return [Growth(name, against, at, values, expected=exponents[name]) for name, values in stages.items()]
 
 
 def forward_kinematics(sizes: Sequence[int]) -> Growth:
@@ -263,20 +265,25 @@ def read(path: str) -> float:
 def plot(rows: Sequence[Growth], path: pathlib.Path) -> None:
     """Draw a panel for each thing grown, and one for memory."""
     panels = [("samples", "s"), ("tests", "s"), ("joints", "s"), ("threads", "s"), ("samples", "MB")]
-    figure = Figure(figsize=(11, 6.5), layout="constrained")
+    figure = Figure(figsize=(11, 9), layout="constrained")
     grid = figure.subplots(2, 3).ravel()
     for axes, (against, unit) in zip(grid, panels, strict=False):
-        for row in rows:
-            if (row.against, row.unit) == (against, unit):
-                axes.plot(row.sizes, row.values, "o-", markersize=3.5, label=f"{row.what} ({row.exponent:.2f})")
+        shown = [row for row in rows if (row.against, row.unit) == (against, unit)]
+        for row in shown:
+            axes.plot(row.sizes, row.values, "o-", markersize=3.5, label=f"{row.what} ({row.exponent:.2f})")
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel(against)
         axes.set_ylabel({"s": "seconds", "MB": "peak memory, MB"}[unit])
-        if unit == "MB":
-            axes.set_ylim(bottom=10)
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        if against != "samples":
+            sizes = sorted({size for row in shown for size in row.sizes})
+            axes.set_xticks(sizes, [f"{size:g}" for size in sizes])
+            axes.xaxis.set_minor_locator(NullLocator())
+        low, high = min(min(row.values) for row in shown), max(max(row.values) for row in shown)
+        axes.set_ylim(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high)))
         axes.grid(alpha=0.3)
-        axes.legend(fontsize=6.5, title="(exponent)", title_fontsize=6.5)
+        axes.legend(fontsize=7, title="(exponent)", title_fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.15))
     grid[-1].set_axis_off()
     figure.savefig(path)
 

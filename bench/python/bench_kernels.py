@@ -221,6 +221,8 @@ def main() -> None:
         for row in new:
             print(row.line(), flush=True)
         rows.extend(new)
+        if options.out is not None:  # after each size: the long ones take minutes
+            measuring.keep(options.out, "kernels", rows, recursion_ns=1e9 * latency)
 
     report(axis_rows(options.budget))
     report([two_recordings(5_000, latency, options.budget)])
@@ -237,8 +239,6 @@ def main() -> None:
                 continue
             for order in options.orders:
                 report(signal_rows(samples, channels, order, latency, options.budget))
-    if options.out is not None:
-        measuring.keep(options.out, "kernels", rows, recursion_ns=1e9 * latency)
 
 
 if __name__ == "__main__":
