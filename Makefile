@@ -16,7 +16,7 @@ export CXX
 export CCACHE_BASEDIR := $(CURDIR)
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
-.PHONY: help demo reproduce test whole-arm-accuracy install system ctest pytest lint stub bench accuracy clean
+.PHONY: help demo reproduce test whole-arm-accuracy install system ctest pytest lint stub bench bench-growth accuracy clean
 
 help:
 	@sed -n 's/^# //p' Makefile | head -5
@@ -80,11 +80,21 @@ whole-arm-accuracy: install
 	$(BIN)/python bench/python/whole_arm_accuracy.py $(SEEDS)
 	$(BIN)/python bench/python/whole_arm_recordings.py $(CIRCLEPOINT_SHARED_DATA)
 
-# Ratios to SciPy and NumPy and the distance to the machine's limits, in one process; then the time of each stage.
-bench: install .venv/dev.stamp
+.venv/bench.stamp: pyproject.toml | .venv/dev.stamp
+	$(BIN)/python -m pip install --quiet --group bench
+	@touch $@
+
+# Ratios to SciPy, NumPy and Numba and the distance to the machine's limits, each set in one process (some 25 minutes, 4 GB);
+# then the time of each stage, beside Ceres and KDL. Kept in bench/results.
+bench: install .venv/bench.stamp
 	$(BIN)/python bench/python/bench_kernels.py --out bench/results
+	$(BIN)/python bench/python/bench_calibration.py --out bench/results
 	cmake --workflow --preset bench
-	build/bench/bench/circlepoint_bench
+	build/bench/bench/circlepoint_bench --benchmark_out=bench/results/stages.json --benchmark_out_format=json
+
+# Cost and memory against samples, joints, tests and threads (some 10 minutes, 6 GB).
+bench-growth: install .venv/bench.stamp
+	$(BIN)/python bench/python/bench_growth.py --out bench/results
 
 # The type stub of the compiled core; after every change of the bindings.
 stub: install .venv/dev.stamp

@@ -106,6 +106,35 @@ def test_a_signal_filtered_block_by_block_agrees_with_scipy(rows, btype, cutoff)
         assert np.abs(cp.sosfiltfilt(sos, x, padtype) - reference).max() <= 1e-9 * np.abs(x).max()
 
 
+@pytest.mark.parametrize("order", [1, 4, 5, 9])
+@pytest.mark.parametrize("channels", [1, 2, 3, 5, 7, 8, 10, 11])
+@pytest.mark.usefixtures("path")
+def test_both_halves_of_a_signal_filtered_side_by_side_agree_with_scipy(order, channels):
+    sos = cp.butter(order, 100.0, 500.0)
+    for rows in [4_000, 4_001]:
+        x = random_samples(rows, channels)
+        reference = scipy.signal.sosfiltfilt(sos, x, axis=0)
+        np.testing.assert_allclose(cp.sosfiltfilt(sos, x), reference, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("channels", [1, 3, 10, 11])
+def test_paths_give_the_same_bits_for_long_signals(channels):
+    x = random_samples(50_001, channels)
+    results = [with_path(path, lambda: cp.sosfiltfilt(lowpass(5), x)) for path in PATHS]
+    for result in results:
+        np.testing.assert_array_equal(result, results[0])
+
+
+@pytest.mark.parametrize("rows", [200, 5_000])
+@pytest.mark.usefixtures("path")
+def test_sections_that_begin_with_a_delay_agree_with_scipy(rows):
+    sos = lowpass(4)
+    sos[0, :3] = [0.0, 0.3, 0.1]
+    sos[1, :3] = [1e-6, 0.0, 0.5]
+    x = random_samples(rows, 3)
+    np.testing.assert_allclose(cp.sosfiltfilt(sos, x), scipy.signal.sosfiltfilt(sos, x, axis=0), rtol=0, atol=1e-10)
+
+
 def test_channels_of_a_long_signal_are_filtered_independently():
     x = random_samples(100_000, 5)
     together = cp.sosfiltfilt(lowpass(4), x)

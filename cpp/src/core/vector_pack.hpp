@@ -81,6 +81,21 @@ struct Pack {
     }
   }
 
+  /// Whole registers: reads as many values behind the lanes as the last register has lanes left over, of any value.
+  inline __attribute__((always_inline)) void load_over(const double* from) {
+#pragma GCC unroll 8
+    for (size_t p = 0; p < count; ++p) {
+      load_vector(part[p], from + p * width);
+    }
+  }
+  /// Writes them too.
+  inline __attribute__((always_inline)) void store_over(double* to) const {
+#pragma GCC unroll 8
+    for (size_t p = 0; p < count; ++p) {
+      store_vector(to + p * width, part[p]);
+    }
+  }
+
   inline __attribute__((always_inline)) void store(double* to) const {
 #pragma GCC unroll 8
     for (size_t p = 0; p + 1 < count; ++p) {
@@ -107,6 +122,24 @@ struct Pack {
     }
   }
 };
+
+/// Whole registers or the lanes alone.
+template <bool Over, typename Values>
+inline __attribute__((always_inline)) void load_row(Values& values, const double* from) {
+  if constexpr (Over) {
+    values.load_over(from);
+  } else {
+    values.load(from);
+  }
+}
+template <bool Over, typename Values>
+inline __attribute__((always_inline)) void store_row(const Values& values, double* to) {
+  if constexpr (Over) {
+    values.store_over(to);
+  } else {
+    values.store(to);
+  }
+}
 
 /// Calls task.operator()<lanes>(first channel) until all channels have had their turn.
 template <typename Task>

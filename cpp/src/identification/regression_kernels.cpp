@@ -1,11 +1,10 @@
 // Compiled once for each instruction set, as CIRCLEPOINT_KERNELS(regression_kernels) = regression_kernels_<path>.
 //
 // Samples go through in blocks: first to one array a regressor and a channel, in the first-level cache, with cosine and sine
-// computed in vectors; then each sum runs over the block in four lanes, which are added up at its end. Four lanes on every
-// path, and blocks of one size: the order of summation is the same everywhere.
+// computed in vectors; then the sums run over the block in four lanes, as many at once as there are registers, which are added up
+// at its end. Four lanes on every path, and blocks of one size: the order of summation is the same everywhere. While the sums run,
+// the next block is fetched.
 #include "regression_kernels.hpp"
-
-#include <utility>
 
 #include "../core/vector_pack.hpp"
 
@@ -32,35 +31,55 @@ constexpr double half_pi_first = 1.57079632673412561417e+00;
 constexpr double half_pi_second = 6.07710050630396597660e-11;
 constexpr double half_pi_third = 2.02226624879595063154e-21;
 
-// The minimax polynomials of W. J. Cody and W. Waite's range: sine and cosine to less than one unit in the last place on
+// Two registers at a time, so that the processor has another polynomial to work on while it waits.
+struct Twin {
+  Vector part[2];
+};
+constexpr ptrdiff_t twin_samples = 2 * static_cast<ptrdiff_t>(Quad::width);
+
+inline __attribute__((always_inline)) Twin operator+(const Twin& a, const Twin& b) {
+  return {{a.part[0] + b.part[0], a.part[1] + b.part[1]}};
+}
+inline __attribute__((always_inline)) Twin operator-(const Twin& a, const Twin& b) {
+  return {{a.part[0] - b.part[0], a.part[1] - b.part[1]}};
+}
+inline __attribute__((always_inline)) Twin operator*(const Twin& a, const Twin& b) {
+  return {{a.part[0] * b.part[0], a.part[1] * b.part[1]}};
+}
+inline __attribute__((always_inline)) Twin both(double value) { return {{value - Vector{}, value - Vector{}}}; }
+inline __attribute__((always_inline)) Twin operator+(double a, const Twin& b) { return both(a) + b; }
+inline __attribute__((always_inline)) Twin operator-(double a, const Twin& b) { return both(a) - b; }
+inline __attribute__((always_inline)) Twin operator*(double a, const Twin& b) { return both(a) * b; }
+
+// The minimax polynomials of W. J. Cody and W. Waite's range: sine and cosine to about one unit in the last place on
 // [-pi/4, pi/4] (coefficients of FreeBSD's msun, k_sin.c and k_cos.c).
-inline __attribute__((always_inline)) void cosine_and_sine(const Vector& x, Vector& cosine, Vector& sine) {
-  const Vector shifter = 6755399441055744.0 - Vector{};  // 1.5 * 2^52: adding it rounds to an integer in the low bits
-  const Vector shifted = x * two_over_pi + shifter;
-  const Vector n = shifted - shifter;
-  const Integers quadrant = reinterpret_cast<Integers>(shifted);
-  const Vector r = ((x - n * half_pi_first) - n * half_pi_second) - n * half_pi_third;
-  const Vector z = r * r;
-  const Vector s =
+inline __attribute__((always_inline)) void cosine_and_sine(const Twin& x, Twin& cosine, Twin& sine) {
+  const Twin shifter = both(6755399441055744.0);  // 1.5 * 2^52: adding it rounds to an integer in the low bits
+  const Twin shifted = two_over_pi * x + shifter;
+  const Twin n = shifted - shifter;
+  const Twin r = ((x - half_pi_first * n) - half_pi_second * n) - half_pi_third * n;
+  const Twin z = r * r;
+  const Twin s =
       r + (r * z) * (-1.66666666666666324348e-01 +
                      z * (8.33333333332248946124e-03 +
                           z * (-1.98412698298579493134e-04 +
-                               z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-  const Vector half_z = 0.5 * z;
-  const Vector w = 1.0 - half_z;
-  const Vector c =
-      w + (((1.0 - w) - half_z) +
-           (z * z) * (4.16666666666666019037e-02 +
-                      z * (-1.38888888888741095749e-03 +
-                           z * (2.48015872894767294178e-05 +
-                                z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))))));
-  const Integers swap = -(quadrant & 1);
-  const Integers sine_sign = (quadrant & 2) << 62;
-  const Integers cosine_sign = ((quadrant + 1) & 2) << 62;
-  const Integers sine_bits = reinterpret_cast<Integers>(s);
-  const Integers cosine_bits = reinterpret_cast<Integers>(c);
-  sine = reinterpret_cast<Vector>(((sine_bits & ~swap) | (cosine_bits & swap)) ^ sine_sign);
-  cosine = reinterpret_cast<Vector>(((cosine_bits & ~swap) | (sine_bits & swap)) ^ cosine_sign);
+                               z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + 1.58969099521155010221e-10 * z)))));
+  const Twin c =
+      (1.0 - 0.5 * z) +
+      (z * z) * (4.16666666666666019037e-02 +
+                 z * (-1.38888888888741095749e-03 +
+                      z * (2.48015872894767294178e-05 +
+                           z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + -1.13596475577881948265e-11 * z)))));
+  constexpr long long sign = static_cast<long long>(1ULL << 63);
+#pragma GCC unroll 2
+  for (size_t p = 0; p < 2; ++p) {
+    const Integers first_bit = reinterpret_cast<Integers>(shifted.part[p]) << 63;  // of the quadrant: cosine and sine change places
+    const Integers second_bit = reinterpret_cast<Integers>(shifted.part[p]) << 62;
+    const Vector to_sine = first_bit < 0 ? c.part[p] : s.part[p];
+    const Vector to_cosine = first_bit < 0 ? s.part[p] : c.part[p];
+    sine.part[p] = reinterpret_cast<Vector>(reinterpret_cast<Integers>(to_sine) ^ (second_bit & sign));
+    cosine.part[p] = reinterpret_cast<Vector>(reinterpret_cast<Integers>(to_cosine) ^ ((first_bit ^ second_bit) & sign));
+  }
 }
 
 struct Block {
@@ -68,70 +87,76 @@ struct Block {
   alignas(64) double y[3][block_samples];
 };
 
-constexpr size_t row_of[15] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 4};
-constexpr size_t column_of[15] = {0, 1, 2, 3, 4, 1, 2, 3, 4, 2, 3, 4, 3, 4, 4};
+// What memory the next block comes from: three arrays and one of three times the size.
+struct Ahead {
+  static constexpr bool ones = true;  // x_0 = 1
+  const double* single[3];
+  const double* triple;
 
-// Entries First, First + 1, ... of the upper triangle, few enough for their sums to stay in registers; x_0 = 1 where Ones.
-template <bool Ones, size_t First, size_t... Entry>
-void add_information(const Block& block, ptrdiff_t samples, double* information, std::index_sequence<Entry...>) {
-  Quad sums[sizeof...(Entry)] = {};
-  const auto load = [&](size_t k, ptrdiff_t i) __attribute__((always_inline)) {
-    Quad x;
-    x.load(block.x[k] + i);
-    return x;
-  };
-  const auto add = [&](Quad& sum, size_t k, size_t l, ptrdiff_t i) __attribute__((always_inline)) {
-    const Quad right = load(l, i);
-    const Quad left = Ones && k == 0 ? right : load(k, i);
-#pragma GCC unroll 2
-    for (size_t p = 0; p < Quad::count; ++p) {
-      sum.part[p] += Ones && k == 0 ? right.part[p] : left.part[p] * right.part[p];
+  template <ptrdiff_t Part>
+  inline __attribute__((always_inline)) void fetch(ptrdiff_t i) const {
+    if constexpr (Part == 0) {
+      __builtin_prefetch(triple + 2 * i);
+    } else if constexpr (Part == 1) {
+      __builtin_prefetch(triple + 2 * block_samples + i);
+      __builtin_prefetch(single[0] + i);
+    } else {
+      __builtin_prefetch(single[1] + i);
+      __builtin_prefetch(single[2] + i);
     }
-  };
-  for (ptrdiff_t i = 0; i < samples; i += static_cast<ptrdiff_t>(lanes)) {
-    (add(sums[Entry], row_of[First + Entry], column_of[First + Entry], i), ...);
   }
-  ((information[First + Entry] += total(sums[Entry])), ...);
+};
+struct Nothing {
+  static constexpr bool ones = false;
+
+  template <ptrdiff_t>
+  inline __attribute__((always_inline)) void fetch(ptrdiff_t) const {}
+};
+
+// Sums of products of two rows of the block, one of a row alone; `row` < 5 is a regressor, 5 ... 7 a channel.
+constexpr int none = -1;
+struct Term {
+  int left, right;
+};
+
+inline __attribute__((always_inline)) const double* row_of(const Block& block, int row) {
+  return row < 5 ? block.x[row] : block.y[row - 5];
 }
 
-// Of channel Channel: its products with the five regressors, with itself and the channels after it.
-template <bool Ones, int Channel>
-void add_channel(const Block& block, ptrdiff_t samples, double* score, double* squares) {
-  Quad by_regressor[5] = {};
-  Quad by_channel[3] = {};
+template <Term Of>
+inline __attribute__((always_inline)) void add_term(Quad& sum, const Block& block, ptrdiff_t i) {
+  Quad left, right;
+  left.load(row_of(block, Of.left) + i);
+  if constexpr (Of.right == none) {
+#pragma GCC unroll 2
+    for (size_t p = 0; p < Quad::count; ++p) {
+      sum.part[p] += left.part[p];
+    }
+  } else {
+    right.load(row_of(block, Of.right) + i);
+#pragma GCC unroll 2
+    for (size_t p = 0; p < Quad::count; ++p) {
+      sum.part[p] += left.part[p] * right.part[p];
+    }
+  }
+}
+
+// As many terms as leave their sums in registers.
+template <ptrdiff_t Part, Term... Of, typename Next>
+inline __attribute__((always_inline)) void add_terms(const Block& block, ptrdiff_t samples, const Next& next, double* to) {
+  Quad sums[sizeof...(Of)] = {};
   for (ptrdiff_t i = 0; i < samples; i += static_cast<ptrdiff_t>(lanes)) {
-    Quad y;
-    y.load(block.y[Channel] + i);
-#pragma GCC unroll 5
-    for (int k = 0; k < 5; ++k) {
-      Quad x = y;
-      if (!Ones || k > 0) {
-        x.load(block.x[k] + i);
-      }
-      for (size_t p = 0; p < Quad::count; ++p) {
-        by_regressor[k].part[p] += Ones && k == 0 ? y.part[p] : x.part[p] * y.part[p];
-      }
-    }
-#pragma GCC unroll 3
-    for (int other = Channel; other < 3; ++other) {
-      Quad z;
-      z.load(block.y[other] + i);
-      for (size_t p = 0; p < Quad::count; ++p) {
-        by_channel[other].part[p] += y.part[p] * z.part[p];
-      }
-    }
+    next.template fetch<Part>(i);
+    size_t k = 0;
+    (add_term<Of>(sums[k++], block, i), ...);
   }
-  for (int k = 0; k < 5; ++k) {
-    score[3 * k + Channel] += total(by_regressor[k]);
-  }
-  for (int other = Channel; other < 3; ++other) {
-    squares[other - Channel] += total(by_channel[other]);
+  for (size_t k = 0; k < sizeof...(Of); ++k) {
+    to[k] = total(sums[k]);
   }
 }
 
 // The block's rows beyond `samples`, up to a multiple of the lanes, become zeros and add nothing.
-template <bool Ones>
-void add_block(Block& block, ptrdiff_t samples, RegressionSums* sums) {
+ptrdiff_t fill_up(Block& block, ptrdiff_t samples) {
   ptrdiff_t filled = samples;
   for (; filled % static_cast<ptrdiff_t>(lanes) != 0; ++filled) {
     for (int k = 0; k < 5; ++k) {
@@ -141,15 +166,47 @@ void add_block(Block& block, ptrdiff_t samples, RegressionSums* sums) {
       block.y[channel][filled] = 0.0;
     }
   }
-  if (Ones) {
-    sums->information[0] += static_cast<double>(samples);
+  return filled;
+}
+
+// With the sums of x_0 times the regressors and the channels in `first`.
+template <typename Next>
+void add_products(const Block& block, ptrdiff_t filled, const Next& next, double (&first)[8], RegressionSums* sums) {
+  double score[11], products[11], squares[11];
+  add_terms<0, Term{1, 5}, Term{1, 6}, Term{1, 7}, Term{2, 5}, Term{2, 6}, Term{2, 7}, Term{3, 5}, Term{3, 6}, Term{3, 7},
+            Term{4, 5}, Term{4, 6}>(block, filled, next, score);
+  add_terms<1, Term{1, 1}, Term{1, 2}, Term{1, 3}, Term{1, 4}, Term{2, 2}, Term{2, 3}, Term{2, 4}, Term{3, 3}, Term{3, 4},
+            Term{4, 4}, Term{4, 7}>(block, filled, next, products);
+  constexpr bool ones = Next::ones;
+  if constexpr (ones) {
+    add_terms<2, Term{5, 5}, Term{5, 6}, Term{5, 7}, Term{6, 6}, Term{6, 7}, Term{7, 7}, Term{1, none}, Term{2, none},
+              Term{5, none}, Term{6, none}, Term{7, none}>(block, filled, next, squares);
+    first[1] = squares[6];
+    first[2] = squares[7];
+    first[5] = squares[8];
+    first[6] = squares[9];
+    first[7] = squares[10];
+  } else {
+    add_terms<2, Term{5, 5}, Term{5, 6}, Term{5, 7}, Term{6, 6}, Term{6, 7}, Term{7, 7}>(block, filled, next, squares);
+    add_terms<2, Term{0, 0}, Term{0, 1}, Term{0, 2}, Term{0, 3}, Term{0, 4}, Term{0, 5}, Term{0, 6}, Term{0, 7}>(block, filled, next,
+                                                                                                              first);
   }
-  constexpr size_t first = Ones ? 1 : 0;
-  add_information<Ones, first>(block, filled, sums->information, std::make_index_sequence<9 - first>{});
-  add_information<Ones, 9>(block, filled, sums->information, std::make_index_sequence<6>{});
-  add_channel<Ones, 0>(block, filled, sums->score, sums->squares);
-  add_channel<Ones, 1>(block, filled, sums->score, sums->squares + 3);
-  add_channel<Ones, 2>(block, filled, sums->score, sums->squares + 5);
+  for (size_t k = 0; k < 5; ++k) {
+    sums->information[k] += first[k];
+  }
+  for (size_t k = 0; k < 10; ++k) {
+    sums->information[5 + k] += products[k];
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    sums->score[k] += first[5 + k];
+  }
+  for (size_t k = 0; k < 11; ++k) {
+    sums->score[3 + k] += score[k];
+  }
+  sums->score[14] += products[10];
+  for (size_t k = 0; k < 6; ++k) {
+    sums->squares[k] += squares[k];
+  }
 }
 
 // Three adjacent readings a sample to one array a channel.
@@ -176,12 +233,73 @@ void separate(const double* readings, ptrdiff_t samples, Block& block) {
   }
 }
 
-bool within_reduction(const double* angle, ptrdiff_t samples) {
-  bool within = true;
-  for (ptrdiff_t i = 0; i < samples; ++i) {
-    within &= __builtin_fabs(angle[i]) <= reduction_limit;
+void fill_cosine_and_sine(const double* angle, ptrdiff_t samples, Block& block) {
+  constexpr long long magnitude = ~static_cast<long long>(1ULL << 63);
+  Integers beyond = {};
+  ptrdiff_t i = 0;
+  const auto fill = [&](const double* from) __attribute__((always_inline)) {
+    Twin x, cosine, sine;
+    load_vector(x.part[0], from);
+    load_vector(x.part[1], from + Quad::width);
+    cosine_and_sine(x, cosine, sine);
+#pragma GCC unroll 2
+    for (size_t p = 0; p < 2; ++p) {
+      beyond |= reinterpret_cast<Vector>(reinterpret_cast<Integers>(x.part[p]) & magnitude) > reduction_limit;
+      store_vector(block.x[1] + i + p * Quad::width, cosine.part[p]);
+      store_vector(block.x[2] + i + p * Quad::width, sine.part[p]);
+    }
+  };
+  for (; i + twin_samples <= samples; i += twin_samples) {
+    fill(angle + i);
   }
-  return within;
+  if (i < samples) {
+    double rest[twin_samples] = {};
+    for (ptrdiff_t k = i; k < samples; ++k) {
+      rest[k - i] = angle[k];
+    }
+    fill(rest);
+  }
+  for (size_t k = 0; k < Quad::width; ++k) {
+    if (beyond[k] != 0) {
+      for (i = 0; i < samples; ++i) {
+        block.x[1][i] = __builtin_cos(angle[i]);
+        block.x[2][i] = __builtin_sin(angle[i]);
+      }
+      return;
+    }
+  }
+}
+
+// Accelerations and squared rates, and their sums: rows up to a multiple of the lanes.
+void fill_motion(const double* rate, const double* acceleration, ptrdiff_t samples, Block& block, double (&first)[8]) {
+  Quad accelerations = {}, squares = {};
+  ptrdiff_t i = 0;
+  const auto fill = [&](const double* rate_at, const double* acceleration_at) __attribute__((always_inline)) {
+    Quad r, a;
+    r.load(rate_at);
+    a.load(acceleration_at);
+#pragma GCC unroll 2
+    for (size_t p = 0; p < Quad::count; ++p) {
+      r.part[p] *= r.part[p];
+      accelerations.part[p] += a.part[p];
+      squares.part[p] += r.part[p];
+    }
+    a.store(block.x[3] + i);
+    r.store(block.x[4] + i);
+  };
+  for (; i + static_cast<ptrdiff_t>(lanes) <= samples; i += static_cast<ptrdiff_t>(lanes)) {
+    fill(rate + i, acceleration + i);
+  }
+  if (i < samples) {
+    double rest[2][lanes] = {};
+    for (ptrdiff_t k = i; k < samples; ++k) {
+      rest[0][k - i] = rate[k];
+      rest[1][k - i] = acceleration[k];
+    }
+    fill(rest[0], rest[1]);
+  }
+  first[3] = total(accelerations);
+  first[4] = total(squares);
 }
 
 void add_motion(const double* angle, const double* rate, const double* acceleration, const double* readings, ptrdiff_t samples,
@@ -189,35 +307,14 @@ void add_motion(const double* angle, const double* rate, const double* accelerat
   Block block;
   for (ptrdiff_t begin = 0; begin < samples; begin += block_samples) {
     const ptrdiff_t size = block_samples < samples - begin ? block_samples : samples - begin;
-    const double* at = angle + begin;
-    if (within_reduction(at, size)) {
-      ptrdiff_t i = 0;
-      for (; i < size; i += static_cast<ptrdiff_t>(Quad::width)) {
-        Vector x = {};
-        if (i + static_cast<ptrdiff_t>(Quad::width) <= size) {
-          load_vector(x, at + i);
-        } else {
-          for (ptrdiff_t k = i; k < size; ++k) {
-            x[k - i] = at[k];
-          }
-        }
-        Vector cosine, sine;
-        cosine_and_sine(x, cosine, sine);
-        store_vector(block.x[1] + i, cosine);
-        store_vector(block.x[2] + i, sine);
-      }
-    } else {
-      for (ptrdiff_t i = 0; i < size; ++i) {
-        block.x[1][i] = __builtin_cos(at[i]);
-        block.x[2][i] = __builtin_sin(at[i]);
-      }
-    }
-    for (ptrdiff_t i = 0; i < size; ++i) {
-      block.x[3][i] = acceleration[begin + i];
-      block.x[4][i] = rate[begin + i] * rate[begin + i];
-    }
+    double first[8];
+    first[0] = static_cast<double>(size);
+    fill_cosine_and_sine(angle + begin, size, block);
+    fill_motion(rate + begin, acceleration + begin, size, block, first);
     separate(readings + 3 * begin, size, block);
-    add_block<true>(block, size, sums);
+    const ptrdiff_t next = begin + size;
+    add_products(block, fill_up(block, size), Ahead{{angle + next, rate + next, acceleration + next}, readings + 3 * next}, first,
+                 sums);
   }
 }
 
@@ -232,17 +329,18 @@ void add_rows(const double* regressors, ptrdiff_t regressors_step, const double*
         block.x[k][i] = row[k];
       }
     }
-    const double* first = readings + begin * readings_step;
+    const double* reading = readings + begin * readings_step;
     if (readings_step == 3) {
-      separate(first, size, block);
+      separate(reading, size, block);
     } else {
       for (ptrdiff_t i = 0; i < size; ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-          block.y[channel][i] = first[i * readings_step + channel];
+          block.y[channel][i] = reading[i * readings_step + channel];
         }
       }
     }
-    add_block<false>(block, size, sums);
+    double first[8];
+    add_products(block, fill_up(block, size), Nothing{}, first, sums);
   }
 }
 
