@@ -116,10 +116,13 @@ void work(const TrialConditions& conditions, const std::vector<std::uint64_t>& s
 void watch(Progress& shared, const std::function<void(Index)>& progress) {
   Index told = 0;
   std::unique_lock lock(shared.mutex);
-  while (shared.running > 0) {
+  for (;;) {
     shared.changed.wait(lock, [&] { return shared.running == 0 || shared.done != told; });
-    if (progress && shared.done != told && !shared.failure) {
-      told = shared.done;
+    if (shared.done == told) {
+      return;  // all workers have ended and every trial has been told of
+    }
+    told = shared.done;
+    if (progress && !shared.failure) {
       lock.unlock();
       try {
         progress(told);
@@ -129,7 +132,6 @@ void watch(Progress& shared, const std::function<void(Index)>& progress) {
       }
       lock.lock();
     }
-    told = shared.done;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace circlepoint {
@@ -12,6 +13,21 @@ constexpr Index highest_order = 8;
 constexpr Index rows_per_coefficient = 25;
 constexpr double knock = 6.0;          // standard deviations
 constexpr double model_failure = 0.2;  // share of rows beyond which knocks are none
+
+// The order whose coefficients the samples pay for (Schwarz' criterion): each one fitted in vain costs precision.
+AutoregressiveModel with_fewest_coefficients(const AutoregressiveModel& model, Index samples) {
+  const auto count = static_cast<double>(samples);
+  Index best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index order = 0; order <= model.order(); ++order) {
+    const double criterion = 2.0 * count * std::log(model.innovation_std[order]) + std::log(count) * static_cast<double>(order);
+    if (criterion < least) {
+      least = criterion;
+      best = order;
+    }
+  }
+  return {model.coefficients.topLeftCorner(best + 1, best), model.innovation_std.head(best + 1)};
+}
 
 MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size_t>& members, Index channels) {
   MotionNoise noise;
@@ -35,7 +51,7 @@ MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size
       }
       // Readings that fit exactly (a simulation without noise) still need a scale.
       segments.front()[0] += 1e-9;
-      noise.channels.push_back(fit_autoregressive(segments, order));
+      noise.channels.push_back(with_fewest_coefficients(fit_autoregressive(segments, order), count));
       // The innovations' size by the residuals themselves: the pooled autocovariance errs on the wide side.
       double squares = 0.0;
       for (Eigen::VectorXd& segment : segments) {

@@ -10,7 +10,6 @@
 namespace circlepoint {
 namespace {
 
-constexpr double coarse_count = 1e-4;   // rad: finer encoders see what their joints yield
 constexpr Index shortest_stretch = 5;   // rows
 constexpr Index longest_stretch = 500;
 constexpr Index fewest_stretches = 8;    // where there is enough: each is once held out
@@ -284,7 +283,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
   }
-  const bool coarse = resolution.maxCoeff() > coarse_count;
+  const bool coarse = are_coarse(resolution);
   std::vector<SmoothSpan> spans;
   for (const IndexRange& span : recording.spans) {
     if (span.size() < std::max<Index>(32, shortest_stretch * step)) {

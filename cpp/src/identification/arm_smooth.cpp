@@ -88,7 +88,7 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
   if (static_cast<double>(step.count()) > too_many * static_cast<double>(moving.size())) {
     return {moving};
   }
-  const auto margin = static_cast<Index>(std::lround(0.9 * rate / joints.cutoff));
+  const auto margin = static_cast<Index>(std::lround((are_coarse(resolution) ? 0.9 : 0.5) * rate / joints.cutoff));
   std::vector<IndexRange> parts;
   Index from = 0;
   for (Index i = 0; i < moving.size(); ++i) {

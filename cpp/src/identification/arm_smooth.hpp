@@ -7,6 +7,9 @@
 
 namespace circlepoint {
 
+// Whether some encoder is too coarse to see what its joint yields, in rad a count.
+inline bool are_coarse(const Eigen::VectorXd& resolution) { return resolution.maxCoeff() > 1e-4; }
+
 // Positions are kept, derivatives taken where they are asked for: a long recording's would be most of the memory.
 struct SmoothJoints {
   double cutoff = 0.0;  // Hz
@@ -34,7 +37,8 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
 std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
 
 // The parts of a moving range that hold no step of acceleration. A sampled step has no definite instant: readings there differ
-// from the encoders' second difference by what lies above half the sample rate. It shows as a jerk far beyond the motion's own.
+// from the encoders' second difference by what lies above half the sample rate. It shows as a jerk far beyond the motion's own. What
+// rings after it is left out too where coarse encoders do not show it.
 std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution, double rate);
 
 // The smoothing that passes the moving joints' motion, a few times its frequency, and no more.
