@@ -39,7 +39,9 @@ def against_truth(result: Calibration, folder: Path) -> None:
     poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (200, len(errors))) + chain.reference_configuration
     difference = (cp.forward_kinematics(chain, poses) - cp.forward_kinematics(truth, poses))[:, :3, 3]
     predicted = cp.end_point_std(chain, result.joints.covariance, poses)
-    squares = errors.ravel() @ np.linalg.solve(result.joints.covariance, errors.ravel()) / errors.size
+    covariance = np.asarray(result.joints.covariance)  # zero where a sliding joint has no point
+    estimated = np.count_nonzero(np.diag(covariance))
+    squares = errors.ravel() @ np.linalg.pinv(covariance, hermitian=True) @ errors.ravel() / estimated
     print(
         f"  axes within {1e3 * np.linalg.norm(errors[:, :2], axis=1).max():.3f} mrad, lines within "
         f"{1e3 * np.linalg.norm(errors[:, 2:], axis=1).max():.3f} mm, end-point "

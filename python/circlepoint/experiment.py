@@ -111,7 +111,8 @@ def make_experiment(
     compliance = np.full(len(arm.joints), setting.compliance) if setting.compliance else None
     acquisition = plan.acquisition or Acquisition()
     own_noise = sensor.noise_std if plan.acquisition is None else acquisition.noise_std(sensor)
-    steps = [arm.encoder_step(joint) or 0.0 for joint in range(len(arm.joints))]
+    # Joints that mimic others start where those put them.
+    steps = [0.0 if arm.joints[i].mimic else arm.encoder_step(i) or 0.0 for i in range(len(arm.joints))]
     return circlepoint.Experiment(
         chain=circlepoint.rebase(carried, rest),
         up_gravity_sensor=np.asarray(carried.home)[:3, :3].T @ up,

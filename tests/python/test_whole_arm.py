@@ -256,6 +256,18 @@ def test_knocks_are_cut_out_and_counted():
     assert_found(result, chain_of(LINES), 2e-4)
 
 
+def test_knocks_in_motion_of_all_joints_are_cut_out_too():
+    # No rests: every knock splits a stretch, and nothing else is there to be mistaken for one.
+    recording = recorded(free(40.0))
+    force = np.array(recording.specific_force)
+    for at in range(700, 7500, 900):
+        force[at : at + 4] += [3.0, -2.0, 4.0]
+    result = estimate(cp.make_recording(recording.time, recording.joint_positions, force))
+    assert result.outliers > 10
+    assert result.noise_inflation < 1.6
+    assert_found(result, chain_of(LINES))
+
+
 def test_residuals_on_data_not_used_are_those_of_the_noise():
     result = estimate(recorded(sweeps_of()))
     assert {stretch.name for stretch in result.stretches} == {"joint 1", "joint 2", "joint 3", "dwells"}

@@ -151,6 +151,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     if (result.converged || pass + 1 == options.max_passes) {
       break;
     }
+    // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
+    const double inflation = pass > 0 ? std::max(1.0, problem.noise.inflation * score_ratio(problem, parts, covariance)) : 1.0;
     if (pass > 0 && pass < 4) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
@@ -158,8 +160,6 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
         now = residuals(problem, state);
       }
     }
-    // The first pass's noise is a guess, and nothing follows from its scores.
-    const double inflation = pass > 0 ? std::max(1.0, problem.noise.inflation * score_ratio(problem, parts, covariance)) : 1.0;
     problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance,
                                    static_cast<double>(problem.layout.columns), inflation);
   }

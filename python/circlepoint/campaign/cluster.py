@@ -42,7 +42,9 @@ def on_cluster(
     try:
         from distributed import CancelledError, Client, KilledWorker, as_completed  # noqa: PLC0415  (an extra)
     except ImportError as error:
-        raise InvalidInput("--scheduler needs Dask: pip install 'circlepoint[dask]'") from error
+        raise InvalidInput(
+            "--scheduler needs Dask: pip install 'distributed>=2024.5' (the extra circlepoint[dask])"
+        ) from error
     try:
         client = Client(address, timeout=_connect_seconds, set_as_default=False)
     except (OSError, ValueError) as error:

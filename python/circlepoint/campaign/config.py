@@ -71,7 +71,7 @@ class Cell:
 
     def conditions(self) -> circlepoint.TrialConditions:
         """Return what the core runs a trial of."""
-        reference = self.plan.rest
+        reference = self.arm.follow(self.plan.rest[None])[0]
         options: circlepoint.JointCalibrationOptions | circlepoint.WholeArmOptions
         if self.method == "whole-arm":
             options = whole_arm_options(self.arm, self.told_sensor, self.setting.gravity, reference)
@@ -180,6 +180,8 @@ def load_campaign(path: str | Path, files: Mapping[str, Path] | None = None) -> 
     InvalidInput
         Naming file, line, field, value and remedy.
     """
+    for read in (_arm, _sensor, _plan):
+        read.cache_clear()
     fields = load_fields(path, KEYS)
     sources = _Sources(fields, files)
     gravity = fields.number("gravity", default=circlepoint.STANDARD_GRAVITY, above=0.0)
@@ -247,7 +249,7 @@ def _require_possible(fields: Fields, cell: Cell) -> None:
         raise InvalidInput(f"{fields.file.path}: {chosen}: cannot be simulated: {error}") from error
 
 
-# Files are read once a process; arms, plans and sensors are immutable.
+# Files are read once a campaign; arms, plans and sensors are immutable.
 @functools.lru_cache(maxsize=256)
 def _arm(path: Path, base: str | None, tip: str | None) -> Arm:
     return load_arm(path, base=base, tip=tip)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from circlepoint.campaign.run import Watcher
 
 SCHEMA_NAME = "circlepoint/fleet-summary/1"
+_KILLED = "its process was killed, likely for want of memory; thin the log out, or give fewer workers"
 COMPLETE, INCOMPLETE, FAILED = "complete", "incomplete", "failed"
 
 _LOG_COLUMNS = {
@@ -113,8 +114,10 @@ def run_fleet(
             run = ((log, calibrate_log(log)) for log in waiting)
         else:
             run = _in_processes(waiting, min(workers, len(waiting)))
+        # As they are before the calibration: what changes meanwhile has not been calibrated.
+        settings = {log.name: log.settings() for log in waiting}
         for log, calibrated in run:
-            _keep(out, log, calibrated)
+            _keep(out, log, calibrated, settings[log.name])
             if watcher is not None:
                 watcher.advance(1)
         return _collect(fleet, out)
@@ -248,8 +251,8 @@ def _is_finished(out: Path, log: FleetLog, source: Path) -> bool:
     return not changed
 
 
-def _keep(out: Path, log: FleetLog, calibrated: Calibrated) -> None:
-    """Write a log's result folder, then its row."""
+def _keep(out: Path, log: FleetLog, calibrated: Calibrated, settings: Document) -> None:
+    """Write a log's result folder, then its row; one whose process was killed is to be calibrated again."""
     target = out / "results" / log.name
     fresh = target.with_name(f".{log.name}.new")
     shutil.rmtree(fresh, ignore_errors=True)
@@ -259,7 +262,11 @@ def _keep(out: Path, log: FleetLog, calibrated: Calibrated) -> None:
         (fresh / name).write_bytes(content)
     if calibrated.files:
         fresh.rename(target)
-    kept = {"settings": log.settings(), "row": calibrated.row, "joints": calibrated.joints}
+    kept = {
+        "settings": {} if calibrated.row["error"] == _KILLED else settings,
+        "row": calibrated.row,
+        "joints": calibrated.joints,
+    }
     path = _row_path(out, log)
     path.parent.mkdir(exist_ok=True)
     write_atomically(path, (json.dumps(kept, indent=1, ensure_ascii=False) + "\n").encode())
@@ -290,18 +297,21 @@ def _on_worker(_: None, log: FleetLog) -> Calibrated:
 
 def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog, Calibrated]]:
     """Calibrate in processes; a log that takes its process down fails alone."""
-    suspects: list[FleetLog] = []
-    with _pool(workers) as pool:
-        running = {pool.submit(calibrate_log, log): log for log in logs}
-        while running:
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                log = running.pop(future)
-                try:
-                    calibrated = future.result()
-                except BrokenProcessPool:
-                    suspects.append(log)
-                else:
-                    yield log, calibrated
+    waiting = list(logs)
+    suspects: list[FleetLog] = []  # in hand when a process was killed
+    while waiting:
+        running: dict[Any, FleetLog] = {}
+        with _pool(workers) as pool:
+            try:
+                while waiting or running:
+                    while waiting and len(running) < workers:
+                        running[pool.submit(calibrate_log, waiting[0])] = waiting[0]
+                        del waiting[0]
+                    for future in wait(running, return_when=FIRST_COMPLETED).done:
+                        calibrated = future.result()
+                        yield running.pop(future), calibrated
+            except BrokenProcessPool:
+                suspects += running.values()
     for log in suspects:
         with _pool(1) as pool:
             try:
@@ -313,7 +323,7 @@ def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog
 def _taken_down(log: FleetLog) -> Calibrated:
     row = dict.fromkeys(_LOG_COLUMNS) | {"name": log.name, "outcome": FAILED, "method": log.method}
     row |= {"logs": [str(path) for path in log.logs], "missing": [], "findings": []}
-    row["error"] = "its process was killed, likely for want of memory; thin the log out, or give fewer workers"
+    row["error"] = _KILLED
     return Calibrated(row, [], {})
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import circlepoint
 from circlepoint.campaign.sections import METHODS
 from circlepoint.sensor_presets import load_sensor, sensor_names
-from circlepoint.yaml_io import Fields, load_fields, load_yaml
+from circlepoint.yaml_io import Fields, describe, load_fields, load_yaml
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -96,11 +96,12 @@ def load_fleet(path: str | Path) -> Fleet:
     """
     fields = load_fields(path, KEYS)
     given = fields.value("fleet", "a list of logs with their arms")
+    if not isinstance(given, dict | list) or not given:
+        what = describe(given) if given else "empty"
+        fields.fail("fleet", f"is {what}; give a list of logs, each with its arm")
     places: list[tuple[Any, ...]] = (
-        [("fleet",)] if isinstance(given, dict) else [("fleet", index) for index in range(len(given or ()))]
+        [("fleet",)] if isinstance(given, dict) else [("fleet", index) for index in range(len(given))]
     )
-    if not places or not isinstance(given, dict | list):
-        fields.fail("fleet", "is empty; give a list of logs, each with its arm")
     logs: list[FleetLog] = []
     for place in places:
         value = given if isinstance(given, dict) else given[place[1]]
@@ -124,7 +125,7 @@ def _logs(fields: Fields, entry: Fields) -> Iterator[FleetLog]:
         method = next((source for source in (entry, fields) if "method" in source), None)
         gravity = next((source for source in (entry, fields) if "gravity" in source), None)
         yield FleetLog(
-            name=_unsafe.sub("_", name),
+            name=_unsafe.sub("_", name).lstrip("._") or "log",
             logs=tuple(files),
             arm=root / _filled(entry, "arm", words),
             base=entry.text("base", "a link's name") if "base" in entry else None,
@@ -175,7 +176,7 @@ def _filled(entry: Fields, key: str, words: dict[str, str]) -> str:
 
 def _default_name(log: Path, root: Path) -> str:
     relative = log.relative_to(root) if log.is_relative_to(root) else log.relative_to(log.anchor)
-    return "_".join([*relative.parent.parts, _stem(log)])
+    return "_".join([*(part for part in relative.parent.parts if part != ".."), _stem(log)])
 
 
 def _stem(log: Path) -> str:

@@ -161,6 +161,7 @@ def test_a_log_calibrated_otherwise_is_refused_by_its_field(finished, recorded, 
     ("text", "words"),
     [
         ("fleet: []", ["fleet", "is empty"]),
+        ("fleet: 3", ["fleet", "is 3", "give a list of logs"]),
         ("fleet: {arm: a/arm.yaml}", ["fleet.log", "needed"]),
         ("fleet: {log: a/log.csv}", ["fleet.arm", "missing"]),
         ('fleet: {logs: "*/log.bag", arm: a/arm.yaml}', ["fleet.logs", "no file matches"]),
@@ -176,6 +177,15 @@ def test_a_wrong_field_is_named_with_its_value_and_what_to_do(text, words, fleet
     with pytest.raises(cp.InvalidInput) as caught:
         load_fleet(fleet)
     assert [word for word in words if word not in str(caught.value)] == []
+
+
+def test_no_name_leads_out_of_the_folder_or_hides_in_it(fleet):
+    fleet.write_text(
+        "fleet:\n  - {log: ../away/log.csv, arm: a/arm.yaml}\n"
+        '  - {log: ../log.csv, arm: a/arm.yaml, name: "{parent}"}\n'
+    )
+    names = [log.name for log in load_fleet(fleet).logs]
+    assert not any(name.startswith(".") or "/" in name for name in names)
 
 
 def test_a_log_that_is_not_there_is_a_row(fleet, tmp_path):

@@ -118,7 +118,8 @@ struct WholeArmCalibration {
   bool converged = false;
 };
 
-/// Raises InvalidInput for options that do not fit the recording and NotIdentifiable where nothing moves or no start leads to a fit.
+/// Raises InvalidInput for options that do not fit the recording and NotIdentifiable where nothing moves, or nothing
+/// for long enough without a gap.
 WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmentation& segmentation,
                                         const WholeArmOptions& options = {});
 
