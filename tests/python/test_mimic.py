@@ -6,6 +6,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv
+import pyarrow.parquet as pq
 import pytest
 
 import circlepoint
@@ -171,3 +172,16 @@ def test_a_mimic_tag_that_will_not_do_says_where_and_why(mimic, words, tmp_path)
         load_arm(path, tip="hand")
     for word in (str(path), *words):
         assert word in str(caught.value)
+
+
+def test_a_campaign_repeats_an_arm_whose_joints_mimic_others(tmp_path):
+    (tmp_path / "arm.urdf").write_text(URDF)
+    (tmp_path / "plan.yaml").write_text(PLAN)
+    (tmp_path / "campaign.yaml").write_text(
+        "arm: {file: arm.urdf, base: base, tip: tool}\nsensor: qa700\nplan: plan.yaml\nmethod: whole-arm\n"
+        "noise: {white: 0.01}\ntrials: 2\nseed: 1\n"
+    )
+    assert main(["campaign", str(tmp_path / "campaign.yaml"), "--out", str(tmp_path / "out")]) == 0
+    table = pq.read_table(next((tmp_path / "out" / "trials").rglob("*.parquet"))).to_pylist()
+    assert [row["outcome"] for row in table] == ["complete"] * 2
+    assert all(row["end_point"] < 5 * row["end_point_std"] for row in table)
