@@ -11,24 +11,12 @@
 #include "circlepoint/identification/joint_regression.hpp"
 #include "circlepoint/identification/whole_arm.hpp"
 #include "circlepoint/simulation/simulate.hpp"
+#include "seven_joints.hpp"
 
 namespace circlepoint {
 namespace {
 
 constexpr double sample_rate = 500.0;
-constexpr Index joints = 7;
-
-// Seven revolute joints, neighbouring axes across one another, 0.3 m apart.
-ScrewChain seven_joints() {
-  ScrewChain chain;
-  for (Index i = 0; i < joints; ++i) {
-    const double height = 0.15 * static_cast<double>(i - joints);
-    const Eigen::Vector3d direction = i % 2 == 0 ? Eigen::Vector3d(0.1, 0.2, 1.0) : Eigen::Vector3d(0.2, 1.0, -0.1);
-    chain.axes.push_back({JointType::revolute, make_line(direction.normalized(), {0.05, 0.1, height})});
-  }
-  chain.reference_configuration = Eigen::VectorXd::Zero(joints);
-  return chain;
-}
 
 JointTrajectory tests_of_all_joints(Index samples) {
   const auto rounds = static_cast<int>(std::max<Index>(1, samples / 100'000));

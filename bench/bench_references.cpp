@@ -10,23 +10,12 @@
 #include "circlepoint/chain/screw_chain.hpp"
 #include "circlepoint/core/types.hpp"
 #include "circlepoint/identification/axis_direction.hpp"
+#include "seven_joints.hpp"
 
 namespace circlepoint {
 namespace {
 
-constexpr Index joints = 7;
 constexpr Index poses = 150;
-
-ScrewChain seven_joints() {
-  ScrewChain chain;
-  for (Index i = 0; i < joints; ++i) {
-    const Eigen::Vector3d direction = i % 2 == 0 ? Eigen::Vector3d(0.1, 0.2, 1.0) : Eigen::Vector3d(0.2, 1.0, -0.1);
-    const Eigen::Vector3d point(0.05, 0.1, 0.15 * static_cast<double>(i - joints));
-    chain.axes.push_back({JointType::revolute, make_line(direction.normalized(), point)});
-  }
-  chain.reference_configuration = Eigen::VectorXd::Zero(joints);
-  return chain;
-}
 
 void forward_kinematics_of_screws(benchmark::State& state) {
   const ScrewChain chain = seven_joints();

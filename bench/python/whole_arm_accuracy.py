@@ -135,13 +135,12 @@ def trial(case: Case, seed: int) -> Trial:
         for name, error in zip(("d1", "d2", "p1", "p2"), cp.local_coordinates(mine.line, theirs.line), strict=True)
     }
     errors = [local[p.name] if p.name in local else p.value - true_values[p.name] for p in result.parameters]
-    difference = cp.forward_kinematics(chain, POSES)[:, :3, 3] - cp.forward_kinematics(made_of.chain, POSES)[:, :3, 3]
     predicted = cp.end_point_std(chain, result.joints.covariance, POSES)
     return Trial(
         [p.name for p in result.parameters],
         np.array(errors),
         np.array([p.std for p in result.parameters]),
-        float(np.sqrt(np.mean(np.sum(difference**2, axis=1)))),
+        cp.end_point_error(chain, made_of.chain, POSES),
         float(np.sqrt(np.mean(predicted**2))),
     )
 

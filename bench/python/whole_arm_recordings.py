@@ -37,7 +37,6 @@ def against_truth(result: Calibration, folder: Path) -> None:
         [cp.local_coordinates(mine.line, theirs.line) for mine, theirs in zip(chain.axes, truth.axes, strict=True)]
     )
     poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (200, len(errors))) + chain.reference_configuration
-    difference = (cp.forward_kinematics(chain, poses) - cp.forward_kinematics(truth, poses))[:, :3, 3]
     predicted = cp.end_point_std(chain, result.joints.covariance, poses)
     covariance = np.asarray(result.joints.covariance)  # zero where a sliding joint has no point
     estimated = np.count_nonzero(np.diag(covariance))
@@ -45,7 +44,7 @@ def against_truth(result: Calibration, folder: Path) -> None:
     print(
         f"  axes within {1e3 * np.linalg.norm(errors[:, :2], axis=1).max():.3f} mrad, lines within "
         f"{1e3 * np.linalg.norm(errors[:, 2:], axis=1).max():.3f} mm, end-point "
-        f"{1e3 * np.sqrt(np.mean(np.sum(difference**2, axis=1))):.3f} mm rms (predicted "
+        f"{1e3 * cp.end_point_error(chain, truth, poses):.3f} mm rms (predicted "
         f"{1e3 * np.sqrt(np.mean(predicted**2)):.3f}); normalised squares {squares:.2f}"
     )
 

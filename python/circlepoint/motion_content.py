@@ -13,18 +13,19 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+import circlepoint
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    import circlepoint
     from circlepoint.arm import Joint
 
     FloatArray = NDArray[np.float64]
 
 JointStatus = Literal["good", "weak", "missing"]
 
-MIN_TRAVEL = 0.02
-"""rad or m: joints that travel less have no line (`circlepoint.WholeArmOptions.min_travel`)."""
+MIN_TRAVEL = circlepoint.WholeArmOptions().min_travel
+"""rad or m: joints that travel less have no line."""
 SHORT_TRAVEL = {"revolute": 0.2, "prismatic": 0.05}
 """rad or m: the travel a joint should have."""
 SLOW = {"revolute": 0.5, "prismatic": 0.2}

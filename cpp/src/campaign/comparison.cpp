@@ -2,14 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "circlepoint/core/error.hpp"
 
 namespace circlepoint {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double chart_ends = 0.1;  // cosine of the angle between two directions
 
 void require_joints(Index estimated, Index true_joints) {
@@ -37,13 +35,13 @@ double normalised_square(const Eigen::Vector4d& error, const Eigen::Matrix4d& co
   // d in rad and p in m differ in size: scaled, the matrix is as well conditioned as its correlations.
   const Eigen::VectorXd std = covariance.diagonal().head(freedoms).cwiseMax(0.0).cwiseSqrt();
   if (!(std.minCoeff() > 0.0)) {
-    return nan;
+    return not_compared;
   }
   const Eigen::MatrixXd correlation =
       std.cwiseInverse().asDiagonal() * covariance.topLeftCorner(freedoms, freedoms) * std.cwiseInverse().asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> factor(correlation);
   if (factor.info() != Eigen::Success) {
-    return nan;
+    return not_compared;
   }
   const Eigen::VectorXd scaled = error.head(freedoms).cwiseQuotient(std);
   return factor.matrixL().solve(scaled).squaredNorm() / static_cast<double>(freedoms);
@@ -60,7 +58,7 @@ LineComparison compare(const JointAxis& estimate, const ScrewAxis& truth) {
   Eigen::Matrix2d rotation = tangent_basis(truth.line.direction).transpose() * tangent_basis(line.direction);
   rotation.col(0).normalize();
   rotation.col(1) = Eigen::Vector2d(-rotation(1, 0), rotation(0, 0));
-  LineComparison comparison{};
+  LineComparison comparison;
   comparison.nees = nees;
   for (const Index at : {Index{0}, Index{2}}) {
     comparison.error.segment<2>(at) = rotation * error.segment<2>(at);
@@ -93,8 +91,7 @@ std::vector<LineComparison> compare_lines(const JointCalibration& calibration, c
   comparisons.reserve(calibration.joints.size());
   for (std::size_t joint = 0; joint < calibration.joints.size(); ++joint) {
     const std::optional<JointAxis>& axis = calibration.joints[joint].axis;
-    comparisons.push_back(axis ? compare(*axis, carried.axes[joint])
-                               : LineComparison{Eigen::Vector4d::Constant(nan), Eigen::Vector4d::Constant(nan), nan});
+    comparisons.push_back(axis ? compare(*axis, carried.axes[joint]) : LineComparison{});
   }
   return comparisons;
 }

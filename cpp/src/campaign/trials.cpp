@@ -4,7 +4,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <exception>
-#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -12,8 +11,6 @@
 
 namespace circlepoint {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // What the two kinds of estimate have in common.
 struct Estimate {
@@ -48,12 +45,7 @@ Estimate estimate(const Recording& recording, const WholeArmOptions& options) {
 
 TrialResult nothing(Index joints) {
   TrialResult result;
-  result.lines.assign(static_cast<std::size_t>(joints),
-                      {Eigen::Vector4d::Constant(nan), Eigen::Vector4d::Constant(nan), nan});
-  result.sensor.error.setConstant(nan);
-  result.sensor.std.setConstant(nan);
-  result.end_point_error = nan;
-  result.end_point_std = nan;
+  result.lines.resize(static_cast<std::size_t>(joints));
   return result;
 }
 

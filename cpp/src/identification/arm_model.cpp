@@ -42,6 +42,7 @@ ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
   place_rate_.resize(links, Eigen::Vector3d::Zero());
   force_read_.resize(links, Eigen::Matrix3d::Zero());
   rate_read_.resize(links, Eigen::Matrix3d::Zero());
+  by_joint_ = {Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_)};
   for (const ScrewAxis& axis : state_.axes) {
     twists_.emplace_back(axis.twist());
     line_twists_.push_back(line_twists(axis));
@@ -173,6 +174,7 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
   by_rate_ = -2.0 * by_force_ * sensor.percussion_distance.asDiagonal() *
              (Eigen::Vector3d::Ones() * w.transpose() - Eigen::Matrix3d(w.asDiagonal()));
   backward();
+  find_by_joint();
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     const Index column = layout_.lines[i];
     if (column < 0) {
@@ -211,13 +213,12 @@ void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian)
   if (layout_.clock_offset < 0 && layout_.encoder_gain < 0 && layout_.eccentricity < 0) {
     return;
   }
-  const ByJoint by = by_joint();
   for (Index j = 0; j < joints_; ++j) {
     const double q = stamped_.position[j];
     const double q_dot = stamped_.velocity[j];
     const double q_ddot = stamped_.acceleration[j];
     const auto column = [&](double position, double velocity, double acceleration) -> Eigen::Vector3d {
-      return by.position.col(j) * position + by.velocity.col(j) * velocity + by.acceleration.col(j) * acceleration;
+      return by_joint_.position.col(j) * position + by_joint_.velocity.col(j) * velocity + by_joint_.acceleration.col(j) * acceleration;
     };
     const double sine = std::sin(q);
     const double cosine = std::cos(q);
@@ -295,18 +296,17 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian
 
 // Everything beyond the joint is displaced by eta = twist q: the point p of the sensor by u = v + z x p, whose own motion in the
 // displaced link adds u'' + 2 w x u' with u' = v' + z' x p + z x p'.
-ByJoint ArmPredictor::by_joint() const {
-  ByJoint by{Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_)};
+void ArmPredictor::find_by_joint() {
   for (Index j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j) + 1;
     const Eigen::Matrix<double, 6, 1>& twist = twists_[k - 1];
     const Eigen::Vector3d turn = twist.head<3>();
     const Eigen::Vector3d shift = twist.tail<3>() + turn.cross(place_[k]);
-    by.position.col(j) = by_twist_[k] * twist;
-    by.velocity.col(j) = force_read_[k] * (2.0 * (rate_[k].cross(shift) + turn.cross(place_rate_[k]))) + rate_read_[k] * turn;
-    by.acceleration.col(j) = force_read_[k] * shift;
+    by_joint_.position.col(j) = by_twist_[k] * twist;
+    by_joint_.velocity.col(j) =
+        force_read_[k] * (2.0 * (rate_[k].cross(shift) + turn.cross(place_rate_[k]))) + rate_read_[k] * turn;
+    by_joint_.acceleration.col(j) = force_read_[k] * shift;
   }
-  return by;
 }
 
 }  // namespace circlepoint

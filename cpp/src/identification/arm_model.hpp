@@ -45,7 +45,7 @@ class ArmPredictor {
   // The same with its derivatives, after a call with derivatives of the same instant.
   Eigen::Vector3d angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian);
   // By the joints' own motion, at the instant evaluated last with derivatives.
-  [[nodiscard]] ByJoint by_joint() const;
+  [[nodiscard]] const ByJoint& by_joint() const { return by_joint_; }
 
  private:
   void forward(const JointInstant& instant);
@@ -53,6 +53,7 @@ class ArmPredictor {
   void delay(const JointInstant& instant);
   void correct_encoders();
   [[nodiscard]] Eigen::Vector3d sense() const;
+  void find_by_joint();
   void by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian) const;
 
   ArmState state_;
@@ -73,6 +74,7 @@ class ArmPredictor {
   std::vector<Eigen::Matrix<double, 6, 4>> line_twists_;   // (n) of the lines' local coordinates
   std::vector<Eigen::Matrix3d> force_read_;                // d reading / d specific force in link k
   std::vector<Eigen::Matrix3d> rate_read_;                 // d reading / d angular velocity in link k
+  ByJoint by_joint_;
   Eigen::Matrix3d by_force_ = Eigen::Matrix3d::Identity();  // d reading / d specific force at the channels
   Eigen::Matrix3d by_rate_ = Eigen::Matrix3d::Zero();       // d reading / d angular velocity of the sensor
 };

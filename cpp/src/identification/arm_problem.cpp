@@ -96,7 +96,7 @@ DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, con
   const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
   system.rows.topLeftCorner(3, columns) = jacobian;
   system.rows.col(last).head<3>() = reading - dwell.reading.head<3>();
-  const Eigen::Matrix3Xd by_position = predictor.by_joint().position;
+  const Eigen::Matrix3Xd& by_position = predictor.by_joint().position;
   for (Index k = 0; k < terms; ++k) {
     system.rows.col(columns + k).head<3>() = by_position.col(dwell.offsets[static_cast<std::size_t>(k)].joint) * dwell.shape[k];
   }

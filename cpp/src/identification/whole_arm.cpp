@@ -130,6 +130,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   hold_fixed(state, problem.layout, options.sensor);
 
   problem.noise = white_noise(problem.rows, 0.1, 0.02, 0.01);
+  Eigen::MatrixXd information;  // data and priors
   Eigen::MatrixXd covariance;
   NormalEquations all;
   std::vector<PartEquations> parts;
@@ -144,7 +145,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     const MarginalEquations data = marginal(problem, parts);
     all = data.equations;
     problem.offsets = data.offsets;
-    covariance = inverse(all.information + linearise_prior(problem, state).information);
+    information = all.information + linearise_prior(problem, state).information;
+    covariance = inverse(information);
     now = residuals(problem, state);
     result.converged = pass > 2 && solution.converged && largest_step(before, state, problem.layout, covariance) < still;
     // What follows changes rows and weights, which only another pass takes in.
@@ -163,7 +165,6 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance,
                                    static_cast<double>(problem.layout.columns), inflation);
   }
-  const NormalEquations prior = linearise_prior(problem, state);
   result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();
   result.rows = now.dwells_normalized.size();
@@ -173,7 +174,6 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   }
   result.normalized_rms = std::sqrt(squares / static_cast<double>(result.rows));
 
-  const Eigen::MatrixXd covariance_information = all.information + prior.information;
   result.covariance = covariance;
   if (problem.prior.gravity_known) {
     all += linearise_gravity(problem, state);
@@ -187,7 +187,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   for (Index k = 0; k < problem.layout.columns; ++k) {
     result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std::sqrt(std::max(0.0, covariance(k, k))), seen.data_std[k]});
   }
-  result.stretches = hold_out(problem, state, parts, covariance_information, now);
+  result.stretches = hold_out(problem, state, parts, information, now);
 
   result.clock_offset = state.clock_offset;
   result.clock_rate = state.clock_rate;

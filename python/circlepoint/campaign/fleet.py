@@ -27,6 +27,7 @@ from circlepoint.failures import explain
 from circlepoint.report.rounding import ABSENT, significant
 from circlepoint.result_folder import CalibrationJob, calibrate_into
 from circlepoint.sensor_presets import load_sensor
+from circlepoint.text_table import aligned
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -125,15 +126,7 @@ def run_fleet(
 
 def calibrate_log(log: FleetLog) -> Calibrated:
     """Calibrate one log; whatever is wrong with it is a row that says so."""
-    row: Document = dict.fromkeys(_LOG_COLUMNS)
-    row |= {
-        "name": log.name,
-        "outcome": FAILED,
-        "method": log.method,
-        "logs": [str(path) for path in log.logs],
-        "missing": [],
-        "findings": [],
-    }
+    row = _failed(log)
     with tempfile.TemporaryDirectory(prefix="circlepoint-") as name:
         folder = Path(name)
         try:
@@ -177,17 +170,7 @@ def format_fleet(summary: Document) -> str:
                 row["error"] or missing,
             )
         )
-    widths = [max(len(row[column]) for row in rows) for column in range(7)]
-    return "\n".join(
-        "  ".join(
-            [
-                text.ljust(width) if k < 3 else text.rjust(width)
-                for k, (text, width) in enumerate(zip(row, widths, strict=False))
-            ]
-            + [row[7]]
-        ).rstrip()
-        for row in rows
-    )
+    return "\n".join(aligned(rows, left={0, 1, 2, 7}))
 
 
 def _log_figures(document: Document) -> Document:
@@ -317,14 +300,20 @@ def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog
             try:
                 yield log, pool.submit(calibrate_log, log).result()
             except BrokenProcessPool:
-                yield log, _taken_down(log)
+                yield log, Calibrated(_failed(log, _KILLED), [], {})
 
 
-def _taken_down(log: FleetLog) -> Calibrated:
-    row = dict.fromkeys(_LOG_COLUMNS) | {"name": log.name, "outcome": FAILED, "method": log.method}
-    row |= {"logs": [str(path) for path in log.logs], "missing": [], "findings": []}
-    row["error"] = _KILLED
-    return Calibrated(row, [], {})
+def _failed(log: FleetLog, error: str | None = None) -> Document:
+    """Return the row of a log that nothing has come of."""
+    return dict.fromkeys(_LOG_COLUMNS) | {
+        "name": log.name,
+        "outcome": FAILED,
+        "error": error,
+        "method": log.method,
+        "logs": [str(path) for path in log.logs],
+        "missing": [],
+        "findings": [],
+    }
 
 
 def _pool(workers: int) -> ProcessPoolExecutor:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from circlepoint.campaign.config import SWEPT
 from circlepoint.report.rounding import ABSENT, PLUS_MINUS, significant
+from circlepoint.text_table import aligned
 
 if TYPE_CHECKING:
     from circlepoint.document import Document
@@ -36,15 +37,7 @@ def format_summary(summary: Document) -> str:
         ]
         for cell in summary["cells"]
     ]
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    lines = [
-        "  ".join(
-            text.ljust(width) if column == 0 else text.rjust(width)
-            for column, (text, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
-    return "\n".join([*lines, *_complaints(summary)])
+    return "\n".join([*aligned(rows, left={0}), *_complaints(summary)])
 
 
 def swept(summary: Document) -> list[str]:

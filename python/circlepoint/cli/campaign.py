@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 from tqdm import tqdm
 
 from circlepoint.atomic import require_writable_folder, write_atomically
-from circlepoint.cli.options import Subparsers, add_command
+from circlepoint.cli.options import Subparsers, add_command, whole_number
 
 if TYPE_CHECKING:
     from circlepoint.document import Document
@@ -150,10 +150,7 @@ class _Progress:
 
 
 def _workers(text: str) -> int:
-    try:
-        count = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
+    count = whole_number(text)
     if count < 1:
         raise argparse.ArgumentTypeError(f"{text} is less than 1")
     return count

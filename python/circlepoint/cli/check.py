@@ -11,6 +11,7 @@ from circlepoint.check import JointCheck, LogCheck, check_recording
 from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_of, recording_of
 from circlepoint.document import finding_entries
 from circlepoint.findings import few_gaps
+from circlepoint.text_table import aligned
 
 if TYPE_CHECKING:
     import argparse
@@ -188,14 +189,7 @@ def _joint_table(joints: tuple[JointCheck, ...]) -> list[str]:
     header = ["joint", "travel", "speed", "moving", "whole-arm", "step", "tests", "rests", "motions", "strokes", "rate"]
     header += ["gravity", "alone"]
     rows = [header, *(_joint_row(index, joint) for index, joint in enumerate(joints))]
-    widths = [max(len(row[column]) for row in rows) for column in range(len(header))]
-    table = []
-    for row in rows:
-        cells = [
-            row[0].ljust(widths[0]),
-            *(cell.rjust(width) for cell, width in zip(row[1:-1], widths[1:-1], strict=True)),
-        ]
-        table.append("  ".join([*cells, row[-1]]).rstrip())
+    table = aligned(rows, left={0, len(header) - 1})
     return [table[0], "-" * max(len(line) for line in table), *table[1:]]
 
 

@@ -8,7 +8,8 @@ import os
 from pathlib import Path
 
 from circlepoint.atomic import require_writable_folder
-from circlepoint.cli.options import Subparsers, add_command, progress
+from circlepoint.cli.options import Subparsers, add_command, progress, whole_number
+from circlepoint.text_table import aligned
 
 _TEXT = """\
 Run the whole study of Canepa, Hollerbach and Boelen (1994) in simulation and write, for every number the paper states,
@@ -63,9 +64,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     rows = [(row.what, row.paper, row.by_paper, row.by_best) for row in statement_rows(reproduction)]
     rows.insert(0, ("", "paper", "ours, the paper's method", "ours, the best method"))
-    widths = [max(len(row[i]) for row in rows) for i in range(4)]
-    for row in rows:
-        print("  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip())
+    print("\n".join(aligned(rows, left=range(4))))
     print()
     print(f"{verdict(reproduction)} {reproduction.trials} trials, {reproduction.seconds:.0f} s.")
     print(f"written: {options.out}/ (open {options.out / 'reproduction.html'})")
@@ -81,10 +80,7 @@ def _jobs(text: str) -> int:
 
 
 def _at_least(text: str, least: int) -> int:
-    try:
-        count = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
+    count = whole_number(text)
     if count < least:
         raise argparse.ArgumentTypeError(f"{text} is less than {least}")
     return count

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from circlepoint._core import InvalidInput
 from circlepoint.atomic import require_writable_folder, write_atomically
-from circlepoint.cli.options import Subparsers, add_arm, add_command, add_gravity, arm_of, progress
+from circlepoint.cli.options import Subparsers, add_arm, add_command, add_gravity, arm_of, progress, whole_number
 
 _TEXT = """\
 Simulate what an arm's encoders and accelerometer would record of a plan of tests. Writes the recording to LOG (.csv,
@@ -93,10 +93,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _seed(text: str) -> int:
-    try:
-        seed = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
+    seed = whole_number(text)
     if not 0 <= seed < 2**64:
         raise argparse.ArgumentTypeError(f"{text} is not within 0 to 2^64 - 1")
     return seed

@@ -11,6 +11,7 @@
 // rotation that takes the true direction to the estimated one.
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +20,14 @@
 
 namespace circlepoint {
 
+/// What is said of a figure there is no estimate of.
+inline constexpr double not_compared = std::numeric_limits<double>::quiet_NaN();
+
 /// One line against the truth; NaN where there is no estimate.
 struct LineComparison {
-  Eigen::Vector4d error;  ///< (d1, d2, p1, p2), rad and m: estimate minus truth
-  Eigen::Vector4d std;    ///< predicted
-  double nees;            ///< per degree of freedom; NaN where the covariance is singular
+  Eigen::Vector4d error = Eigen::Vector4d::Constant(not_compared);  ///< (d1, d2, p1, p2), rad and m: estimate minus truth
+  Eigen::Vector4d std = Eigen::Vector4d::Constant(not_compared);    ///< predicted
+  double nees = not_compared;  ///< per degree of freedom; NaN where the covariance is singular
 };
 
 /// Names of a sensor's figures, in the order of SensorComparison: bias_x ... second_order_z.
@@ -32,8 +36,9 @@ inline constexpr int sensor_figures = 15;
 
 /// A sensor's figures against the truth, in SI units.
 struct SensorComparison {
-  Eigen::Matrix<double, sensor_figures, 1> error;  ///< estimate minus truth
-  Eigen::Matrix<double, sensor_figures, 1> std;    ///< predicted; 0 where a figure was taken as known
+  using Figures = Eigen::Matrix<double, sensor_figures, 1>;
+  Figures error = Figures::Constant(not_compared);  ///< estimate minus truth
+  Figures std = Figures::Constant(not_compared);    ///< predicted; 0 where a figure was taken as known
 };
 
 /// The lines' errors, base to tip. `truth` may be at any reference configuration. Raises InvalidInput where it has another

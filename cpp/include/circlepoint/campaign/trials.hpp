@@ -37,8 +37,8 @@ struct TrialResult {
   int iterations = 0;      ///< of the method: passes of the joints' fits, or iterations of the whole-arm estimate
   std::vector<LineComparison> lines;  ///< base to tip
   SensorComparison sensor;            ///< NaN where the method does not estimate the sensor
-  double end_point_error = 0.0;       ///< m, rms over the configurations; NaN unless complete
-  double end_point_std = 0.0;         ///< m, the same as predicted by the lines' covariance
+  double end_point_error = not_compared;  ///< m, rms over the configurations; NaN unless complete
+  double end_point_std = not_compared;    ///< m, the same as predicted by the lines' covariance
 };
 
 /// One trial. Raises InvalidInput for conditions that cannot be simulated.
