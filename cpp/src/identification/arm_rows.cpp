@@ -8,10 +8,12 @@
 #include "arm_yield.hpp"
 
 namespace circlepoint {
+
 namespace {
 
 constexpr Index shortest_stretch = 5;   // rows
 constexpr Index longest_stretch = 500;
+constexpr Index longest_coarse = 120;    // their covariances are dense
 constexpr Index fewest_stretches = 8;    // where there is enough: each is once held out
 
 // The motion of one joint alone through the middle of the range, or -1.
@@ -43,6 +45,7 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     return;
   }
   const Index motion = single_motion(segmentation, moving);
+  const bool coarse = are_coarse(resolution);
   const Index pieces = (available + longest - 1) / longest;
   std::vector<std::size_t> smoothing;  // by joint
   for (Index joint = 0; joint < recording.joints(); ++joint) {
@@ -72,6 +75,14 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
       stretch.acceleration.col(joint) = joints.derivative(2, joint, begin, count)(index - index[0]);
       stretch.jerk.col(joint) = joints.derivative(3, joint, begin, count)(index - index[0]);
     }
+    if (coarse && span.reading.cols() == 3) {  // what they make of a gyroscope's reading the noise model has to find by itself
+      for (Index joint = 0; joint < recording.joints(); ++joint) {
+        if (crosses_counts(span, moving, joint, resolution)) {
+          const double cutoff = span.joints[smoothing[static_cast<std::size_t>(joint)]].cutoff;
+          stretch.errors.push_back({joint, resolution[joint] * resolution[joint] / 12.0, cutoff});
+        }
+      }
+    }
     stretch.reading = span.reading(index, Eigen::all);
     stretch.time = recording.time(stretch.sample);
     rows.stretches.push_back(std::move(stretch));
@@ -86,7 +97,9 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
   if (moving.size() <= 0) {
     return;
   }
-  for (const IndexRange& part : without_steps(span, moving, resolution, recording.sample_rate)) {
+  const Index motion = single_motion(segmentation, moving);
+  const Index alone = motion >= 0 ? segmentation.motions[static_cast<std::size_t>(motion)].joint : -1;
+  for (const IndexRange& part : without_steps(span, moving, alone, resolution, recording.sample_rate)) {
     add_part(rows, recording, segmentation, span, part, step, longest, resolution);
   }
 }
@@ -202,6 +215,7 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
   piece.noise = stretch.noise;
   piece.offsets = stretch.offsets;
   piece.follows = stretch.follows;
+  piece.errors = stretch.errors;
   piece.sample = stretch.sample(rows);
   piece.time = stretch.time(rows);
   piece.position = stretch.position(rows, Eigen::all);
@@ -278,12 +292,14 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
   rows.middle = 0.5 * (recording.time[0] + recording.time[recording.samples() - 1]);
   const auto step = std::max<Index>(1, static_cast<Index>(std::floor(recording.sample_rate / (2.0 * cutoff))));
   rows.rate = recording.sample_rate / static_cast<double>(step);
-  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 8 * shortest_stretch, longest_stretch);
+  rows.sample_rate = recording.sample_rate;
+  const bool coarse = are_coarse(resolution);
+  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 8 * shortest_stretch,
+                                          coarse ? longest_coarse : longest_stretch);
   for (const StaticDwell& dwell : segmentation.dwells) {
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
   }
-  const bool coarse = are_coarse(resolution);
   std::vector<SmoothSpan> spans;
   for (const IndexRange& span : recording.spans) {
     if (span.size() < std::max<Index>(32, shortest_stretch * step)) {

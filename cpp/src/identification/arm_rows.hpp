@@ -23,6 +23,13 @@ struct OffsetShapes {
   Eigen::MatrixXd acceleration;  // (M, terms) 1/s^2
 };
 
+// What a coarse encoder adds to the smoothed position of a joint that crosses its counts.
+struct PositionError {
+  Index joint = 0;
+  double variance = 0.0;  // rad^2 a sample, before smoothing
+  double cutoff = 0.0;    // Hz, of the smoothing
+};
+
 struct MovingStretch {
   Index joint = -1;        // the one joint that moves, or -1
   Index test = -1;         // of that joint, into Segmentation::tests, or -1
@@ -37,6 +44,7 @@ struct MovingStretch {
   std::vector<OffsetTerm> offsets;  // of the joints that rest meanwhile
   OffsetShapes shapes;
   std::vector<bool> follows;        // (n) the joint's yield is modelled (arm_yield)
+  std::vector<PositionError> errors;  // where some encoder is coarse
   [[nodiscard]] Index rows() const { return time.size(); }
 };
 
@@ -61,7 +69,9 @@ struct ArmRows {
   Eigen::MatrixXd offset_information;  // its inverse
   double cutoff = 0.0;      // Hz
   double rate = 0.0;        // Hz, of the thinned-out rows
+  double sample_rate = 0.0; // Hz, of the recording
   double middle = 0.0;      // s
+  bool yields = false;      // with coarse encoders: some joint at rest changes its count while another moves
   Index channels = 3;       // 6 with a gyroscope
   Index samples = 0;        // of the recording, used
 };

@@ -36,10 +36,15 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
 // really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
 std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
 
+// Whether a joint moves by so many counts that each sample errs on its own.
+bool crosses_counts(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
+
 // The parts of a moving range that hold no step of acceleration. A sampled step has no definite instant: readings there differ
 // from the encoders' second difference by what lies above half the sample rate. It shows as a jerk far beyond the motion's own. What
-// rings after it is left out too where coarse encoders do not show it.
-std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution, double rate);
+// rings after it is left out too where coarse encoders do not show it. So is where the joint that moves alone (or -1) creeps over a
+// coarse encoder's counts, as it does beside every rest.
+std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, Index alone,
+                                      const Eigen::VectorXd& resolution, double rate);
 
 // The smoothing that passes the moving joints' motion, a few times its frequency, and no more.
 std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution);

@@ -271,6 +271,7 @@ void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation
       pairs += recording.joints() - 1;
     }
   }
+  rows.yields = changed > 0;
   const double quiet = quiet_std(changed, pairs);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     HomeGroup& group = groups[g];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "arm_encoder_noise.hpp"
 #include "arm_layout.hpp"
 #include "arm_report.hpp"
 #include "arm_result.hpp"
@@ -17,6 +18,7 @@ namespace circlepoint {
 namespace {
 
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
+constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
 
 // What calibrate_joints does not check.
@@ -139,7 +141,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   for (int pass = 0; pass < options.max_passes; ++pass) {
     const ArmSolution solution = solve(problem, state, 50);
     result.iterations += solution.iterations;
-    const ArmState before = state;
+    const ArmState former = state;
     state = solution.state;
     parts = linearise_data(problem, state);
     const MarginalEquations data = marginal(problem, parts);
@@ -148,7 +150,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     information = all.information + linearise_prior(problem, state).information;
     covariance = inverse(information);
     now = residuals(problem, state);
-    result.converged = pass > 2 && solution.converged && largest_step(before, state, problem.layout, covariance) < still;
+    result.converged = pass > 2 && solution.converged && largest_step(former, state, problem.layout, covariance) < still;
     // What follows changes rows and weights, which only another pass takes in.
     if (result.converged || pass + 1 == options.max_passes) {
       break;
@@ -159,11 +161,14 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
       if (cut > 0) {
+        problem.noise.encoder.clear();
         now = residuals(problem, state);
       }
     }
-    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance,
-                                   static_cast<double>(problem.layout.columns), inflation);
+    const ArmNoise before = std::move(problem.noise);
+    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns),
+                                   inflation, encoder_covariances(problem, state), pass > 0 ? &before : nullptr,
+                                   pass > passes_to_settle);
   }
   result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();
