@@ -39,13 +39,12 @@ Index test_of(const Segmentation& segmentation, Index motion) {
 }
 
 void add_part(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-              const IndexRange& moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
+              const IndexRange& moving, Index step, Index longest, const Eigen::VectorXd& resolution, bool errors) {
   const Index available = (moving.size() + step - 1) / step;
   if (available < shortest_stretch) {
     return;
   }
   const Index motion = single_motion(segmentation, moving);
-  const bool coarse = are_coarse(resolution);
   const Index pieces = (available + longest - 1) / longest;
   std::vector<std::size_t> smoothing;  // by joint
   for (Index joint = 0; joint < recording.joints(); ++joint) {
@@ -75,7 +74,7 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
       stretch.acceleration.col(joint) = joints.derivative(2, joint, begin, count)(index - index[0]);
       stretch.jerk.col(joint) = joints.derivative(3, joint, begin, count)(index - index[0]);
     }
-    if (coarse && span.reading.cols() == 3) {  // what they make of a gyroscope's reading the noise model has to find by itself
+    if (errors) {
       for (Index joint = 0; joint < recording.joints(); ++joint) {
         if (crosses_counts(span, moving, joint, resolution)) {
           const double cutoff = span.joints[smoothing[static_cast<std::size_t>(joint)]].cutoff;
@@ -91,16 +90,16 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
 }
 
 void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
+                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution, bool errors) {
   moving.begin = std::max(moving.begin, span.usable_begin);
   moving.end = std::min(moving.end, span.usable_end);
   if (moving.size() <= 0) {
     return;
   }
   const Index motion = single_motion(segmentation, moving);
-  const Index alone = motion >= 0 ? segmentation.motions[static_cast<std::size_t>(motion)].joint : -1;
+  const Index alone = errors && motion >= 0 ? segmentation.motions[static_cast<std::size_t>(motion)].joint : -1;
   for (const IndexRange& part : without_steps(span, moving, alone, resolution, recording.sample_rate)) {
-    add_part(rows, recording, segmentation, span, part, step, longest, resolution);
+    add_part(rows, recording, segmentation, span, part, step, longest, resolution, errors);
   }
 }
 
@@ -284,8 +283,11 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   return cutoff;
 }
 
+namespace {
+
+// With `errors`, coarse encoders' errors of moving joints are carried to the readings.
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
-                  bool gyroscope) {
+                  bool gyroscope, bool errors) {
   ArmRows rows;
   rows.cutoff = cutoff;
   rows.channels = gyroscope ? 6 : 3;
@@ -295,7 +297,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
   rows.sample_rate = recording.sample_rate;
   const bool coarse = are_coarse(resolution);
   const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 8 * shortest_stretch,
-                                          coarse ? longest_coarse : longest_stretch);
+                                          errors ? longest_coarse : longest_stretch);
   for (const StaticDwell& dwell : segmentation.dwells) {
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
@@ -313,15 +315,29 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin - apart}, step, longest, resolution);
+      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin - apart}, step, longest, resolution,
+                    errors);
       begin = dwell.samples.end + apart;
     }
-    add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution);
+    add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution, errors);
   }
   if (coarse) {
     follow_yields(rows, recording, segmentation, spans, resolution);
   }
   share_offsets(rows, resolution);
+  return rows;
+}
+
+}  // namespace
+
+ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
+                  bool gyroscope) {
+  const bool coarse = are_coarse(resolution);
+  ArmRows rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, coarse && !gyroscope);
+  // Where joints at rest yield, what the model of their yield leaves is larger and looks alike; one fitted spectrum covers both.
+  if (coarse && rows.yields) {
+    rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, false);
+  }
   return rows;
 }
 
