@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circlepoint/conditioning/butterworth.hpp"
 #include "circlepoint/core/error.hpp"
 #include "regression_noise.hpp"
 
@@ -38,50 +37,6 @@ void describe_information(TestFit& fit, const JointModelMatrix& information) {
 
 }  // namespace
 
-TestRegression make_regression(const TestSamples& samples, const PartialChain* chain, int filter_order) {
-  const Index joint = samples.joint;
-  const double zero = samples.configuration[joint];
-  const bool correct = chain != nullptr && chain->knows(joint);
-  TestRegression problem;
-  const Index dwells = samples.dwell_force.rows();
-  const Eigen::VectorXd still = Eigen::VectorXd::Zero(dwells);
-  problem.static_regressors = joint_regressors(samples.dwell_positions.col(joint).array() - zero, still, still);
-  problem.static_readings = samples.dwell_force;
-  if (correct && dwells > 0) {
-    const SamplesX at_rest = SamplesX::Zero(dwells, samples.dwell_positions.cols());
-    problem.static_readings -=
-        yield_correction(*chain, joint, samples.configuration, samples.dwell_positions, at_rest, at_rest);
-  }
-  Index total = 0;
-  for (const MotionSamples& motion : samples.motions) {
-    total += motion.time.size() - motion.trim_begin - motion.trim_end;
-  }
-  problem.dynamic_regressors.resize(total, 5);
-  problem.dynamic_readings.resize(total, 3);
-  problem.time.resize(total);
-  problem.position.resize(total);
-  Index row = 0;
-  for (const MotionSamples& motion : samples.motions) {
-    problem.sample_rate = static_cast<double>(motion.time.size() - 1) / (motion.time[motion.time.size() - 1] - motion.time[0]);
-    SamplesX both(motion.time.size(), 8);
-    both.leftCols<5>() = joint_regressors(motion.position.col(joint).array() - zero, motion.velocity.col(joint),
-                                          motion.acceleration.col(joint));
-    both.rightCols<3>() = motion.specific_force;
-    if (correct) {
-      both.rightCols<3>() -= yield_correction(*chain, joint, samples.configuration, motion.position, motion.velocity,
-                                              motion.acceleration);
-    }
-    both = sosfiltfilt(butter(filter_order, samples.cutoff, problem.sample_rate), both);
-    const Index count = motion.time.size() - motion.trim_begin - motion.trim_end;
-    problem.dynamic_regressors.middleRows(row, count) = both.middleRows(motion.trim_begin, count).leftCols<5>();
-    problem.dynamic_readings.middleRows(row, count) = both.middleRows(motion.trim_begin, count).rightCols<3>();
-    problem.time.segment(row, count) = motion.time.segment(motion.trim_begin, count);
-    problem.position.segment(row, count) = motion.position.col(joint).segment(motion.trim_begin, count);
-    row += count;
-  }
-  return problem;
-}
-
 void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model,
                 const Matrix53& coefficients) {
   fit.joint = samples.joint;
@@ -102,14 +57,13 @@ void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& 
   fit.dynamic_noise_std = std::max(residual_rms(fit.measured - fit.modelled, 12.0), 1e-6);
 }
 
-FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* chain, const JointModelPrior& prior,
-                             const TestNoise& noise, int filter_order) {
+FittedTest fit_by_regression(const TestSamples& samples, const TestRegression& whole, const JointModelPrior& prior,
+                             const TestNoise& noise) {
   if (samples.motions.empty()) {
     throw NotIdentifiable("only still poses of it were found, no motion: they show the axis' direction but not its place; "
                           "record a motion of this joint alone, for example 0.5 Hz over 150 degrees for 6 s");
   }
-  TestRegression problem = make_regression(samples, chain, filter_order);
-  const TestRegression whole = problem;
+  TestRegression problem = whole;
   if (noise.kept.size() == problem.dynamic_readings.rows()) {
     problem.dynamic_regressors.array().colwise() *= noise.kept.array();
     problem.dynamic_readings.array().colwise() *= noise.kept.array();
