@@ -3,6 +3,7 @@
 // their samples' scatter, the encoders' counts and one common excess.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "arm_rows.hpp"
@@ -32,6 +33,22 @@ ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, d
 // own scatter and the encoders explain; parameters: how many were fitted; inflation of the stretches' variance, by their scores.
 ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
                         const Eigen::MatrixXd& dwell_variance, double parameters, double inflation);
+
+// Finds, pass by pass, the inflation at which the stretches' scores are as large as they should be (M31). Where other data outweigh
+// the motions, their residuals grow with the inflation, and the ratio falls with its square: to multiply by the ratio would swing
+// for ever, so the slope is taken from the last two passes.
+class InflationSearch {
+ public:
+  // What to try after `inflation` has given `ratio`; 1 at least.
+  double next(double inflation, double ratio);
+
+ private:
+  struct Tried {
+    double inflation;  // logarithms
+    double ratio;
+  };
+  std::optional<Tried> before_;
+};
 
 // Whitens a stretch in place: `columns` (M * channels, k), channel-major within (channel c: rows c M ... (c + 1) M - 1).
 void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns);

@@ -64,6 +64,9 @@ struct ArmRows {
   double middle = 0.0;      // s
   Index channels = 3;       // 6 with a gyroscope
   Index samples = 0;        // of the recording, used
+
+  // Scalar residuals.
+  [[nodiscard]] Index equations() const;
 };
 
 // The given rows of a stretch.
