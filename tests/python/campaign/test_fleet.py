@@ -1,6 +1,7 @@
 """A fleet of logs: each calibrated as the command does, bad ones a row, goes on where it was stopped."""
 
 import contextlib
+import copy
 import io
 import json
 import os
@@ -9,9 +10,11 @@ import signal
 import subprocess
 import sys
 import time
+from importlib import resources
 from pathlib import Path
 from typing import NamedTuple
 
+import jsonschema
 import pyarrow.parquet as pq
 import pytest
 from campaign_support import EXAMPLE, PLAN
@@ -92,6 +95,22 @@ def test_every_log_is_a_row_and_a_bad_one_does_not_stop_the_rest(finished):
     assert len(joints) == 9
     assert joints[6][2]
     assert not (finished.out / "results" / "d").exists()
+
+
+def test_the_summary_follows_its_schema(finished):
+    text = resources.files("circlepoint").joinpath("schema/fleet-summary-1.json").read_text(encoding="utf-8")
+    schema = json.loads(text)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    summary = json.loads((finished.out / "summary.json").read_text())
+    assert [row["outcome"] for row in summary["logs"]] == ["complete", "complete", "incomplete", "failed"]
+    jsonschema.validate(summary, schema)
+    for row, field, wrong in ((0, "error", "none"), (0, "samples", None), (2, "missing", []), (3, "error", None)):
+        other = copy.deepcopy(summary)
+        other["logs"][row][field] = wrong
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate(other, schema)
+    described = schema["properties"]["logs"]["items"]["properties"]
+    assert list(described) == pq.read_schema(finished.out / "fleet.parquet").names
 
 
 def test_a_result_is_that_of_the_command_calibrate(finished, recorded, tmp_path):
