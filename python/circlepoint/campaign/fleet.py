@@ -21,7 +21,7 @@ from circlepoint._core import InvalidInput
 from circlepoint.arm import load_arm
 from circlepoint.atomic import write_atomically
 from circlepoint.campaign import folder as folders
-from circlepoint.campaign.cluster import on_cluster
+from circlepoint.campaign.cluster import Lost, on_cluster
 from circlepoint.document import Document, generator_entry
 from circlepoint.failures import explain
 from circlepoint.report.rounding import ABSENT, significant
@@ -37,6 +37,10 @@ if TYPE_CHECKING:
 
 SCHEMA_NAME = "circlepoint/fleet-summary/1"
 _KILLED = "its process was killed, likely for want of memory; thin the log out, or give fewer workers"
+_KILLED_THERE = (
+    "every worker of the cluster that was given it was killed, likely for want of memory; thin the log out, or give "
+    "the workers more memory or fewer threads"
+)
 COMPLETE, INCOMPLETE, FAILED = "complete", "incomplete", "failed"
 
 _LOG_COLUMNS = {
@@ -76,11 +80,15 @@ _JOINT_COLUMNS = {
 
 
 class Calibrated(NamedTuple):
-    """What became of a log: its row, its joints' rows, and the files of its result folder."""
+    """What became of a log: its row, its joints' rows, and the files of its result folder.
+
+    One whose process was killed is calibrated again when the fleet is run again: another time it may have the memory.
+    """
 
     row: Document
     joints: list[Document]
     files: dict[str, bytes]
+    killed: bool = False
 
 
 def run_fleet(
@@ -110,7 +118,7 @@ def run_fleet(
         if watcher is not None:
             watcher.begin(len(fleet.logs), len(fleet.logs) - len(waiting))
         if scheduler is not None and waiting:
-            run = on_cluster(scheduler, _on_worker, None, waiting)
+            run = _there(waiting, scheduler, watcher)
         elif min(workers, len(waiting)) <= 1:
             run = ((log, calibrate_log(log)) for log in waiting)
         else:
@@ -235,7 +243,7 @@ def _is_finished(out: Path, log: FleetLog, source: Path) -> bool:
 
 
 def _keep(out: Path, log: FleetLog, calibrated: Calibrated, settings: Document) -> None:
-    """Write a log's result folder, then its row; one whose process was killed is to be calibrated again."""
+    """Write a log's result folder, then its row."""
     target = out / "results" / log.name
     fresh = target.with_name(f".{log.name}.new")
     shutil.rmtree(fresh, ignore_errors=True)
@@ -246,7 +254,7 @@ def _keep(out: Path, log: FleetLog, calibrated: Calibrated, settings: Document) 
     if calibrated.files:
         fresh.rename(target)
     kept = {
-        "settings": {} if calibrated.row["error"] == _KILLED else settings,
+        "settings": {} if calibrated.killed else settings,
         "row": calibrated.row,
         "joints": calibrated.joints,
     }
@@ -272,6 +280,13 @@ def _collect(fleet: Fleet, out: Path) -> Document:
 
 def _table(rows: Sequence[Document], columns: dict[str, pa.DataType]) -> pa.Table:
     return pa.table({name: pa.array([row[name] for row in rows], kind) for name, kind in columns.items()})
+
+
+def _there(logs: list[FleetLog], scheduler: str, watcher: Watcher | None) -> Iterator[tuple[FleetLog, Calibrated]]:
+    """Calibrate on a cluster; a log that takes its workers down fails alone."""
+    tell = None if watcher is None else watcher.tell
+    for log, calibrated in on_cluster(scheduler, _on_worker, None, logs, tell=tell):
+        yield log, _killed(log, _KILLED_THERE) if isinstance(calibrated, Lost) else calibrated
 
 
 def _on_worker(_: None, log: FleetLog) -> Calibrated:
@@ -300,7 +315,11 @@ def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog
             try:
                 yield log, pool.submit(calibrate_log, log).result()
             except BrokenProcessPool:
-                yield log, Calibrated(_failed(log, _KILLED), [], {})
+                yield log, _killed(log, _KILLED)
+
+
+def _killed(log: FleetLog, error: str) -> Calibrated:
+    return Calibrated(_failed(log, error), [], {}, killed=True)
 
 
 def _failed(log: FleetLog, error: str | None = None) -> Document:

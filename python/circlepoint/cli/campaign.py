@@ -148,6 +148,10 @@ class _Progress:
         if self._bar is not None:
             self._bar.update(done)
 
+    def tell(self, message: str) -> None:
+        """Say why nothing comes, also in a pipe."""
+        tqdm.write(f"circlepoint: {message}", file=sys.stderr)
+
 
 def _workers(text: str) -> int:
     count = whole_number(text)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import jsonschema
 import pyarrow.parquet as pq
 import pytest
-from campaign_support import EXAMPLE, PLAN
+from campaign_support import EXAMPLE, PLAN, calibrate_on_worker_or_die, calibrate_or_die, contents
 
 import circlepoint as cp
 from circlepoint.campaign.fleet_config import load_fleet
@@ -111,6 +111,34 @@ def test_the_summary_follows_its_schema(finished):
             jsonschema.validate(other, schema)
     described = schema["properties"]["logs"]["items"]["properties"]
     assert list(described) == pq.read_schema(finished.out / "fleet.parquet").names
+
+
+def test_a_log_that_kills_its_process_fails_alone_and_is_calibrated_again(fleet, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    shutil.rmtree(fleet.parent / "b")
+    with monkeypatch.context() as patched:
+        patched.setattr("circlepoint.campaign.fleet.calibrate_log", calibrate_or_die)
+        assert run(fleet, out, "--workers", "2") == 1
+    killed = rows(out)
+    assert [killed[name]["outcome"] for name in "acd"] == ["complete", "incomplete", "failed"]
+    assert "its process was killed" in killed["d"]["error"]
+    kept = (out / "rows" / "a.json").stat().st_mtime_ns
+    assert run(fleet, out) == 1
+    assert "its process was killed" not in rows(out)["d"]["error"]
+    assert (out / "rows" / "a.json").stat().st_mtime_ns == kept
+
+
+def test_a_log_that_kills_its_workers_fails_alone_on_a_cluster(finished, recorded, tmp_path, scheduler, monkeypatch):
+    out = tmp_path / "out"
+    with monkeypatch.context() as patched:
+        patched.setattr("circlepoint.campaign.fleet._on_worker", calibrate_on_worker_or_die)
+        assert run(recorded / "fleet.yaml", out, "--scheduler", scheduler) == 1
+    killed = rows(out)
+    assert [killed[name]["outcome"] for name in "abcd"] == ["complete", "complete", "incomplete", "failed"]
+    assert "every worker of the cluster that was given it was killed" in killed["d"]["error"]
+    # Run again where it is not killed, it is as if there had been no cluster.
+    assert run(recorded / "fleet.yaml", out, "--scheduler", scheduler) == 1
+    assert contents(out) == contents(finished.out)
 
 
 def test_a_result_is_that_of_the_command_calibrate(finished, recorded, tmp_path):
