@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 SCHEMA_NAME = "circlepoint/campaign-summary/1"
 DIRECTION, POINT = "direction", "point"
 _most_reasons = 5
+# Reasons that differ in these alone are one, or there would be as many as trials; "joint 2" and a name are no figures.
+_figure_in_text = re.compile(r"(?<!joint )(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
 
 
 class CellStatistics:
@@ -47,6 +50,7 @@ class CellStatistics:
         self._end_point_variance = MeanOfTrials()
         self._outcomes: Counter[str] = Counter()
         self._reasons: Counter[str] = Counter()
+        self._first_reason: dict[str, str] = {}
         self._converged = 0
 
     def add(self, table: pa.Table) -> None:
@@ -64,7 +68,11 @@ class CellStatistics:
         self._end_point.add(end_point[:, 0] ** 2)
         self._end_point_variance.add(end_point[:, 1] ** 2)
         self._outcomes.update(table.column("outcome").to_pylist())
-        self._reasons.update(reason for reason in table.column("reason").to_pylist() if reason)
+        for reason in table.column("reason").to_pylist():
+            if reason:
+                kind = _figure_in_text.sub("#", reason)
+                self._first_reason.setdefault(kind, reason)
+                self._reasons[kind] += 1
         self._converged += sum(table.column("converged").to_pylist())
 
     def entry(self) -> Document:
@@ -77,7 +85,8 @@ class CellStatistics:
             **{outcome: self._outcomes[outcome] for outcome in ("complete", "incomplete", "failed")},
             "converged": self._converged,
             "reasons": [
-                {"reason": reason, "trials": count} for reason, count in self._reasons.most_common(_most_reasons)
+                {"reason": self._first_reason[kind], "trials": count}
+                for kind, count in self._reasons.most_common(_most_reasons)
             ],
             "end_point": {
                 "rmse": _interval(self._end_point.root()),
