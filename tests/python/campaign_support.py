@@ -1,7 +1,9 @@
 """Where the example campaign is, what a campaign's folder holds, and work that takes its process down."""
 
 import os
+import resource
 import signal
+from contextlib import contextmanager
 from pathlib import Path
 
 import pyarrow as pa
@@ -56,11 +58,11 @@ def table_of(folder, cell):
     return pa.concat_tables(pq.read_table(path) for path in sorted(folder.glob(f"trials/cell-{cell:04d}/*.parquet")))
 
 
-def calibrate_or_die(log):
+def calibrate_or_die(log, scratch=None):
     """Calibrate a log; the one named d takes its process down."""
     if log.name == "d":
         os.kill(os.getpid(), signal.SIGKILL)
-    return calibrate_log(log)
+    return calibrate_log(log, scratch)
 
 
 def calibrate_on_worker_or_die(_, log):
@@ -73,3 +75,14 @@ def run_batch_or_die(bundle, batch):
     if (batch.cell, batch.index) == (1, 1):
         os.kill(os.getpid(), signal.SIGKILL)
     return run_bundled(bundle, batch)
+
+
+@contextmanager
+def files_no_larger_than(size):
+    """Have the system refuse to write more than so many bytes into a file, as it does on a full disk."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)

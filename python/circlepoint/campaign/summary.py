@@ -7,8 +7,10 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 
+from circlepoint._core import InvalidInput
 from circlepoint.campaign.statistics import LEVELS, ErrorStatistics, Interval, MeanOfTrials
 from circlepoint.campaign.trials import END_POINT, NEES, SENSOR_FIGURES, STD, line_columns
 from circlepoint.document import Document, generator_entry
@@ -17,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    import pyarrow as pa
     from numpy.typing import NDArray
 
     from circlepoint.campaign.config import Campaign, Cell
@@ -112,7 +113,13 @@ def summarise(campaign: Campaign, batches: Iterable[tuple[int, Path]]) -> Docume
     """
     cells = [CellStatistics(cell) for cell in campaign.cells]
     for cell, path in batches:
-        cells[cell].add(pq.read_table(path))
+        try:
+            table = pq.read_table(path)
+        except (pa.ArrowException, OSError) as error:
+            raise InvalidInput(
+                f"{path}: cannot be read ({error}), though it was whole; take it away and run the same command again"
+            ) from error
+        cells[cell].add(table)
     return {
         "schema": SCHEMA_NAME,
         "generator": generator_entry(),

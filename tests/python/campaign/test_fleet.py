@@ -17,7 +17,14 @@ from typing import NamedTuple
 import jsonschema
 import pyarrow.parquet as pq
 import pytest
-from campaign_support import EXAMPLE, PLAN, calibrate_on_worker_or_die, calibrate_or_die, contents
+from campaign_support import (
+    EXAMPLE,
+    PLAN,
+    calibrate_on_worker_or_die,
+    calibrate_or_die,
+    contents,
+    files_no_larger_than,
+)
 
 import circlepoint as cp
 from circlepoint.campaign.fleet_config import load_fleet
@@ -111,6 +118,45 @@ def test_the_summary_follows_its_schema(finished):
             jsonschema.validate(other, schema)
     described = schema["properties"]["logs"]["items"]["properties"]
     assert list(described) == pq.read_schema(finished.out / "fleet.parquet").names
+
+
+def test_a_full_disk_ends_the_run_and_is_no_fault_of_the_logs(fleet, finished, tmp_path, capsys):
+    out = tmp_path / "out"
+    shutil.rmtree(fleet.parent / "b")
+    shutil.rmtree(fleet.parent / "c")
+    with files_no_larger_than(8192):
+        assert run(fleet, out, "--workers", "1") == 2
+    message = capsys.readouterr().err
+    assert [word for word in (str(out), "File too large", "run it again") if word not in message] == []
+    assert not list(out.rglob("*.parquet"))
+    assert sorted(path.name for path in out.iterdir()) == [".lock", "campaign.json"]
+    assert run(fleet, out, "--workers", "1") == 1
+    assert [row["outcome"] for row in rows(out).values()] == ["complete", "failed"]
+    names = sorted(path.name for path in (out / "results" / "a").iterdir())
+    assert names == sorted(path.name for path in (finished.out / "results" / "a").iterdir())
+    assert not (out / ".scratch").exists()
+
+
+def test_an_interrupted_fleet_leaves_no_process_no_traceback_and_no_scratch(fleet, tmp_path):
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "circlepoint", "campaign", str(fleet), "--out", str(out), "--workers", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 60.0
+    while not (out / ".scratch").exists():
+        assert process.poll() is None
+        assert time.monotonic() < deadline
+        time.sleep(0.002)
+    time.sleep(0.3)  # into the start of the workers
+    os.killpg(process.pid, signal.SIGINT)
+    printed, _ = process.communicate(timeout=60.0)  # ends when no process has its end of the pipe any more
+    assert process.returncode == 130
+    assert printed == "circlepoint: interrupted; what is finished is kept, and the same command goes on with the rest\n"
+    assert not (out / ".scratch").exists()
 
 
 def test_a_log_that_kills_its_process_fails_alone_and_is_calibrated_again(fleet, tmp_path, monkeypatch):
