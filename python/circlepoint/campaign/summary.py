@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from itertools import groupby
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +18,7 @@ from circlepoint.campaign.trials import END_POINT, NEES, SENSOR_FIGURES, STD, li
 from circlepoint.document import Document, generator_entry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
 SCHEMA_NAME = "circlepoint/campaign-summary/1"
 DIRECTION, POINT = "direction", "point"
 _most_reasons = 5
+_rows_together = 4096
 # Reasons that differ in these alone are one, or there would be as many as trials; "joint 2" and a name are no figures.
 _figure_in_text = re.compile(r"(?<!joint )(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
 
@@ -109,17 +112,12 @@ def summarise(campaign: Campaign, batches: Iterable[tuple[int, Path]]) -> Docume
     ----------
     campaign : Campaign
     batches : iterable of (cell, path)
-        The tables of all batches, in order; one is in memory at a time.
+        The tables of all batches, in order; some thousand rows are in memory at a time.
     """
     cells = [CellStatistics(cell) for cell in campaign.cells]
-    for cell, path in batches:
-        try:
-            table = pq.read_table(path)
-        except (pa.ArrowException, OSError) as error:
-            raise InvalidInput(
-                f"{path}: cannot be read ({error}), though it was whole; take it away and run the same command again"
-            ) from error
-        cells[cell].add(table)
+    for cell, of_cell in groupby(batches, key=itemgetter(0)):
+        for table in _together(_read(path) for _, path in of_cell):
+            cells[cell].add(table)
     return {
         "schema": SCHEMA_NAME,
         "generator": generator_entry(),
@@ -128,6 +126,28 @@ def summarise(campaign: Campaign, batches: Iterable[tuple[int, Path]]) -> Docume
         "trials_per_cell": campaign.trials,
         "cells": [cell.entry() for cell in cells],
     }
+
+
+def _read(path: Path) -> pa.Table:
+    try:
+        with pq.ParquetFile(path) as file:
+            return file.read(use_threads=False)
+    except (pa.ArrowException, OSError) as error:
+        raise InvalidInput(
+            f"{path}: cannot be read ({error}), though it was whole; take it away and run the same command again"
+        ) from error
+
+
+def _together(tables: Iterable[pa.Table]) -> Iterator[pa.Table]:
+    """Put small tables together: a million trials are ten thousand tables, and each addition has its cost."""
+    held: list[pa.Table] = []
+    for table in tables:
+        held.append(table)
+        if sum(len(part) for part in held) >= _rows_together:
+            yield pa.concat_tables(held)
+            held = []
+    if held:
+        yield pa.concat_tables(held)
 
 
 def _entry(statistics: ErrorStatistics) -> Document:
