@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <system_error>
 #include <thread>
 
 #include "circlepoint/core/types.hpp"
@@ -44,7 +45,11 @@ class ClearedAhead {
     const std::size_t size = static_cast<std::size_t>(samples.size()) * sizeof(double);
     if (size >= large && std::thread::hardware_concurrency() > 1) {
       auto* first = reinterpret_cast<char*>(samples.data());
-      thread_ = std::thread([this, first, size, fronts] { clear(first, size, static_cast<std::size_t>(fronts)); });
+      try {
+        thread_ = std::thread([this, first, size, fronts] { clear(first, size, static_cast<std::size_t>(fronts)); });
+      } catch (const std::system_error&) {
+        // No thread to be had: the writer clears its pages itself.
+      }
     }
 #else
     static_cast<void>(samples);

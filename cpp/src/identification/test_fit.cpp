@@ -11,8 +11,6 @@
 namespace circlepoint {
 namespace {
 
-using Matrix15 = Eigen::Matrix<double, 15, 15>;
-
 // Residual of the unconstrained regression: the noise to start from, before any model is fitted.
 double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<const Samples3>& y, int columns) {
   if (x.rows() == 0) {
@@ -25,11 +23,11 @@ double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<c
 }
 
 // Rank and condition of the information in units of each parameter's own standard deviation.
-void describe_information(TestFit& fit, const JointModelMatrix& information) {
-  const Eigen::Matrix<double, joint_model_parameters, 1> root = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  const JointModelMatrix scaled = root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<JointModelMatrix> solver(scaled, Eigen::EigenvaluesOnly);
-  const Eigen::Matrix<double, joint_model_parameters, 1> eigenvalues = solver.eigenvalues();
+void describe_information(TestFit& fit, const Eigen::MatrixXd& information) {
+  const Eigen::VectorXd root = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
   fit.parameters = joint_model_parameters;
   fit.rank = static_cast<int>((eigenvalues.array() > 1e-12 * eigenvalues[joint_model_parameters - 1]).count());
   fit.condition_number = eigenvalues[joint_model_parameters - 1] / std::max(eigenvalues[0], 1e-300);
@@ -100,30 +98,32 @@ FittedTest fit_by_regression(const TestSamples& samples, const TestRegression& w
   describe_information(fitted.fit, solution.data_information);
   fitted.fit.gravity_share = solution.model.gravity.norm() / prior.gravity;
 
-  // Sandwich: static part and prior as assumed, dynamic part as its residuals show.
-  const Matrix15 score = score_covariance(problem.dynamic_regressors, residual, problem.sample_rate);
+  // Sandwich: static part and prior as assumed, dynamic part as its residuals show. Matrices of dynamic size: written out for
+  // twelve and fifteen columns each product takes the compiler seconds and saves nothing.
+  const Eigen::MatrixXd jacobian = solution.jacobian;
+  const Eigen::MatrixXd score = score_covariance(problem.dynamic_regressors, residual, problem.sample_rate);
   const double variance = fitted.fit.dynamic_noise_std * fitted.fit.dynamic_noise_std;
   fitted.noise = {fitted.fit.static_noise_std, fitted.fit.dynamic_noise_std,
                   correlation_factor(score, moving.information, variance),
                   without_knocks(fitted.fit.measured - fitted.fit.modelled,
                                  static_cast<Index>(std::lround(0.5 * problem.sample_rate / samples.cutoff)))};
   fitted.fit.correlation_factor = fitted.noise.correlation_factor;
-  Matrix15 assumed = Matrix15::Zero();
+  Eigen::MatrixXd excess = dynamic_weight * dynamic_weight * score;  // of the scores, above what was assumed
   for (int channel = 0; channel < 3; ++channel) {
-    assumed.block<5, 5>(5 * channel, 5 * channel) = dynamic_weight * moving.information;
+    excess.block<5, 5>(5 * channel, 5 * channel) -= dynamic_weight * moving.information;
   }
-  const JointModelMatrix inverse = solution.information.inverse();
-  const JointModelMatrix meat = solution.information - solution.jacobian.transpose() * assumed * solution.jacobian +
-                                dynamic_weight * dynamic_weight * solution.jacobian.transpose() * score * solution.jacobian;
-  const JointModelMatrix covariance = inverse * meat * inverse;
-  const Eigen::Matrix<double, 4, joint_model_parameters> selector = JointModelFit::line_selector();
+  const Eigen::MatrixXd information = solution.information;
+  const Eigen::MatrixXd inverse = information.inverse();
+  const Eigen::MatrixXd meat = information + jacobian.transpose() * excess * jacobian;
+  const Eigen::MatrixXd covariance = inverse * meat * inverse;
+  const Eigen::MatrixXd selector = JointModelFit::line_selector();
   fitted.fit.noise_covariance = selector * covariance * selector.transpose();
   fitted.fit.percussion_distance_std = covariance.diagonal().tail<3>().cwiseMax(0.0).cwiseSqrt();
-  const Matrix53 square_score =
+  const Eigen::MatrixXd square_score =
       static_weight * problem.static_regressors.transpose() * problem.static_readings.cwiseAbs2() +
       dynamic_weight * problem.dynamic_regressors.transpose() * problem.dynamic_readings.cwiseAbs2();
-  const Eigen::Matrix<double, joint_model_parameters, sensor_errors> by_sensor =
-      inverse * solution.jacobian.transpose() * score_by_sensor(weighted.information, weighted.score, square_score);
+  const Eigen::MatrixXd by_sensor =
+      inverse * jacobian.transpose() * score_by_sensor(weighted.information, weighted.score, square_score);
   fitted.sensor_jacobian = selector * by_sensor;
   fitted.percussion_jacobian = by_sensor.bottomRows<3>();
   return fitted;
