@@ -1,8 +1,9 @@
 """Calls timed in turns, their ratios, and what is kept of them.
 
-Everything runs in one process and on one thread (import this module before NumPy), calls of all sides in turns, so that
-load on the machine meets them alike; printed are the median of the ratio of neighbouring calls and its quartiles. Times
-are processor time, page faults included, which other load disturbs less than the clock on the wall.
+Everything runs in one process, linear algebra on one thread (import this module before NumPy), calls of all sides in
+turns, so that load on the machine meets them alike; printed are the median of the ratio of neighbouring calls and its
+quartiles. Times are the wall clock's, page faults included: those of circlepoint's results above 32 MB a second thread
+takes upon itself where there is another processor.
 """
 
 import os
@@ -65,11 +66,11 @@ class Row:
 
 
 def seconds(call: Call, times: int = 1) -> float:
-    """Return the processor time of one call, the mean of several."""
-    start = time.process_time_ns()
+    """Return the time of one call, the mean of several."""
+    start = time.perf_counter_ns()
     for _ in range(times):
         call()
-    return 1e-9 * (time.process_time_ns() - start) / times
+    return 1e-9 * (time.perf_counter_ns() - start) / times
 
 
 def interleaved(calls: Sequence[Call], budget: float, fewest: int = 5) -> np.ndarray:

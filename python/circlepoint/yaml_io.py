@@ -136,7 +136,7 @@ class Fields:
         need = f"a whole number of at least {at_least}"
         value = self.value(key, need)
         if isinstance(value, bool) or not isinstance(value, int) or value < at_least:
-            self.fail(key, f"is {describe(value)}, must be {need}")
+            self.fail(key, f"is {describe(value)}, must be {need}{_as_whole(value)}")
         return value
 
     def text(self, key: str, need: str, *, default: str | None = None) -> str:
@@ -206,6 +206,8 @@ def load_yaml(path: str | Path) -> YamlFile:
             data = None if root is None else loader.construct_document(root)
         finally:
             loader.dispose()
+    except InvalidInput:
+        raise
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         where = f", line {mark.line + 1}, column {mark.column + 1}" if mark else ""
@@ -243,6 +245,14 @@ def _finite(at_least: float, above: float) -> str:
     if above > -math.inf:
         return f"a finite number above {above:g}"
     return f"a finite number of at least {at_least:g}" if at_least > -math.inf else "a finite number"
+
+
+def _as_whole(value: Any) -> str:
+    """Return how to write a number that is whole but not written so: 1e3, 10.0."""
+    if isinstance(value, str) and _EXPONENTIAL.fullmatch(value.strip()):
+        value = float(value)
+    whole = isinstance(value, float) and value.is_integer() and value > 0.0
+    return f": write {int(value)}" if whole else ""
 
 
 def _as_number(value: Any) -> str:

@@ -1,9 +1,16 @@
-"""Where the example campaign is, and what a campaign's folder holds."""
+"""Where the example campaign is, what a campaign's folder holds, and work that takes its process down."""
 
+import os
+import resource
+import signal
+from contextlib import contextmanager
 from pathlib import Path
 
 import pyarrow as pa
 import pyarrow.parquet as pq
+
+from circlepoint.campaign.fleet import calibrate_log
+from circlepoint.campaign.run import run_bundled
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "campaign"
 CONFIG = """\
@@ -49,3 +56,33 @@ def contents(folder):
 def table_of(folder, cell):
     """The table of a cell, all batches."""
     return pa.concat_tables(pq.read_table(path) for path in sorted(folder.glob(f"trials/cell-{cell:04d}/*.parquet")))
+
+
+def calibrate_or_die(log, scratch=None):
+    """Calibrate a log; the one named d takes its process down."""
+    if log.name == "d":
+        os.kill(os.getpid(), signal.SIGKILL)
+    return calibrate_log(log, scratch)
+
+
+def calibrate_on_worker_or_die(_, log):
+    """The same on a worker of a cluster."""
+    return calibrate_or_die(log)
+
+
+def run_batch_or_die(bundle, batch):
+    """Run a batch; the second one of the second cell takes its worker down."""
+    if (batch.cell, batch.index) == (1, 1):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return run_bundled(bundle, batch)
+
+
+@contextmanager
+def files_no_larger_than(size):
+    """Have the system refuse to write more than so many bytes into a file, as it does on a full disk."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)

@@ -187,6 +187,24 @@ def test_an_empty_signal_is_refused_without_padding_too():
         cp.sosfiltfilt(cp.butter(2, 20.0, SAMPLE_RATE), np.zeros((0, 3)), padtype=None)
 
 
+@pytest.mark.parametrize("filtered", ["sosfiltfilt", "savgol_filter", "cumulative_trapezoid"])
+def test_results_above_32_megabytes_are_those_of_their_pieces(filtered):
+    """Their memory is cleared by a thread of its own while they are written."""
+    call = {
+        "sosfiltfilt": lambda x: cp.sosfiltfilt(cp.butter(4, 20.0, SAMPLE_RATE), x),
+        "savgol_filter": lambda x: cp.savgol_filter(x, 21, 3),
+        "cumulative_trapezoid": lambda x: cp.cumulative_trapezoid(x, dx=1.0, initial=0.0),
+    }[filtered]
+    x = np.random.default_rng(0).normal(size=(1_500_000, 3))
+    whole = call(x)
+    for begin in (0, 700_000, 1_480_000):
+        piece = call(x[begin : begin + 20_000])
+        inner = slice(2000, 18_000)
+        ours = whole[begin : begin + 20_000][inner]
+        start = ours[0] - piece[inner][0] if filtered == "cumulative_trapezoid" else 0.0
+        np.testing.assert_allclose(ours, piece[inner] + start, rtol=0, atol=1e-9)
+
+
 def test_another_python_thread_runs_while_a_signal_is_filtered():
     sos, x = cp.butter(4, 20.0, SAMPLE_RATE), np.zeros((500_000, 3))
     go, ran = threading.Event(), threading.Event()

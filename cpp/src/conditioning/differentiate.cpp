@@ -83,6 +83,7 @@ SamplesX savgol_filter(const Eigen::Ref<const SamplesX>& x, Index window_length,
     return SamplesX::Zero(n, channels);
   }
   SamplesX y = detail::unwritten_samples(n, channels);
+  const detail::ClearedAhead ahead(y);
   const Eigen::VectorXd positions = Eigen::VectorXd::LinSpaced(window_length, 0.0, static_cast<double>(2 * half));
   const SamplesX weights = window_weights(positions, window_length, polyorder, deriv, delta);
   y.topRows(half) = weights.topRows(half) * x.topRows(window_length);

@@ -31,6 +31,7 @@ SamplesX integrate(detail::SignalKernels::Integrate* kernel, const Eigen::Ref<co
   const Index first = initial ? 1 : 0;
   const Index channels = y.cols();
   SamplesX result = detail::unwritten_samples(y.rows() - 1 + first, channels);
+  const detail::ClearedAhead ahead(result);
   if (initial) {
     result.row(0).setConstant(*initial);
   }

@@ -86,6 +86,7 @@ SamplesX sosfiltfilt(const Eigen::Ref<const SecondOrderSections>& sos, const Eig
   require(x.rows() > edge, "the signal has " + std::to_string(x.rows()) + " samples, the extension at each end " +
                                std::to_string(edge) + "; give a longer signal or a smaller padlen");
   SamplesX y = detail::unwritten_samples(x.rows(), x.cols());
+  const detail::ClearedAhead ahead(y, 2);
   detail::Scratch scratch;
   const detail::RoomySamples head = extension(scratch, x, padtype, edge, false);
   const detail::RoomySamples tail = extension(scratch, x, padtype, edge, true);

@@ -293,6 +293,17 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
   return noise;
 }
 
+double InflationSearch::next(double inflation, double ratio) {
+  constexpr double far_enough = 0.05;  // of two logarithms, to tell a slope
+  const Tried now{std::log(inflation), std::log(std::max(ratio, 1e-6))};
+  double slope = -1.0;
+  if (before_ && std::abs(now.inflation - before_->inflation) > far_enough) {
+    slope = std::clamp((now.ratio - before_->ratio) / (now.inflation - before_->inflation), -4.0, -1.0);
+  }
+  before_ = now;
+  return std::max(1.0, std::exp(now.inflation - now.ratio / slope));
+}
+
 void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns) {
   for (std::size_t triad = 0; triad < noise.rotation.size(); ++triad) {
     const Eigen::Matrix3d& rotation = noise.rotation[triad];

@@ -3,6 +3,7 @@
 // their samples' scatter, the encoders' counts and one common excess.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "arm_rows.hpp"
@@ -40,6 +41,22 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
 
 // Takes the encoders' errors, as above, into the whitening.
 void include_encoders(ArmNoise& noise, const ArmRows& rows, const std::vector<Eigen::MatrixXd>& encoders);
+
+// Finds, pass by pass, the inflation at which the stretches' scores are as large as they should be (M31). Where other data outweigh
+// the motions, their residuals grow with the inflation, and the ratio falls with its square: to multiply by the ratio would swing
+// for ever, so the slope is taken from the last two passes.
+class InflationSearch {
+ public:
+  // What to try after `inflation` has given `ratio`; 1 at least.
+  double next(double inflation, double ratio);
+
+ private:
+  struct Tried {
+    double inflation;  // logarithms
+    double ratio;
+  };
+  std::optional<Tried> before_;
+};
 
 // Whitens a stretch in place: `columns` (M * channels, k), channel-major within (channel c: rows c M ... (c + 1) M - 1).
 void whiten_stretch(const MotionNoise& noise, Index rows, Eigen::Ref<Eigen::MatrixXd> columns);

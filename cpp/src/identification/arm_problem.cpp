@@ -115,9 +115,13 @@ NormalEquations normal_equations(const Eigen::MatrixXd& system) {
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns + 1, columns + 1);
   product.selfadjointView<Eigen::Lower>().rankUpdate(system.transpose());
   NormalEquations equations;
-  equations.information = product.topLeftCorner(columns, columns).selfadjointView<Eigen::Lower>();
   equations.gradient = product.row(columns).head(columns);
   equations.cost = product(columns, columns);
+  equations.information.resize(columns, columns);
+  for (Index column = 0; column < columns; ++column) {
+    equations.information.col(column).tail(columns - column) = product.col(column).segment(column, columns - column);
+    equations.information.row(column).tail(columns - column) = product.col(column).segment(column, columns - column).transpose();
+  }
   return equations;
 }
 
@@ -157,7 +161,7 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
 
 namespace {
 
-// Layout columns first, then all offsets, their prior included.
+// Layout columns first, then all offsets, their prior included. The lower triangle of the information.
 NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
   const Index columns = problem.layout.columns;
   const Index offsets = problem.rows.offset_covariance.rows();
@@ -165,12 +169,14 @@ NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquati
   for (const PartEquations& part : parts) {
     const auto mine = static_cast<Index>(part.offsets.size());
     const NormalEquations& equations = part.equations;
-    all.information.topLeftCorner(columns, columns) += equations.information.topLeftCorner(columns, columns);
+    for (Index column = 0; column < columns; ++column) {
+      all.information.col(column).segment(column, columns - column) +=
+          equations.information.col(column).segment(column, columns - column);
+    }
     all.gradient.head(columns) += equations.gradient.head(columns);
     all.cost += equations.cost;
     for (Index a = 0; a < mine; ++a) {
       const Index at = columns + part.offsets[static_cast<std::size_t>(a)];
-      all.information.col(at).head(columns) += equations.information.col(columns + a).head(columns);
       all.information.row(at).head(columns) += equations.information.col(columns + a).head(columns).transpose();
       all.gradient[at] += equations.gradient[columns + a];
       for (Index b = 0; b < mine; ++b) {
@@ -193,7 +199,9 @@ MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEqua
   const Index columns = problem.layout.columns;
   const Index offsets = problem.rows.offset_covariance.rows();
   const NormalEquations all = assemble(problem, parts);
-  MarginalEquations reduced{{all.information.topLeftCorner(columns, columns), all.gradient.head(columns), all.cost}, problem.offsets};
+  MarginalEquations reduced{{all.information.topLeftCorner(columns, columns).selfadjointView<Eigen::Lower>(),
+                             all.gradient.head(columns), all.cost},
+                            problem.offsets};
   if (offsets > 0) {
     const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
     const Eigen::MatrixXd coupling = factor.matrixL().solve(all.information.bottomLeftCorner(offsets, columns));

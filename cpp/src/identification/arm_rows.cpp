@@ -68,11 +68,9 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const SmoothJoints& joints = span.joints[smoothing[static_cast<std::size_t>(joint)]];
       stretch.position.col(joint) = joints.position(index, joint);
-      const Index begin = index[0];
-      const Index count = index[index.size() - 1] - begin + 1;
-      stretch.velocity.col(joint) = joints.derivative(1, joint, begin, count)(index - index[0]);
-      stretch.acceleration.col(joint) = joints.derivative(2, joint, begin, count)(index - index[0]);
-      stretch.jerk.col(joint) = joints.derivative(3, joint, begin, count)(index - index[0]);
+      stretch.velocity.col(joint) = joints.derivative(1, joint, index);
+      stretch.acceleration.col(joint) = joints.derivative(2, joint, index);
+      stretch.jerk.col(joint) = joints.derivative(3, joint, index);
     }
     if (errors) {
       for (Index joint = 0; joint < recording.joints(); ++joint) {
@@ -206,6 +204,14 @@ double motion_frequency(const Recording& recording, const Segmentation& segmenta
 }
 
 }  // namespace
+
+Index ArmRows::equations() const {
+  Index count = static_cast<Index>(dwells.size());
+  for (const MovingStretch& stretch : stretches) {
+    count += stretch.rows();
+  }
+  return count * channels;
+}
 
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows) {
   MovingStretch piece;

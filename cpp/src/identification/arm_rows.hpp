@@ -74,6 +74,9 @@ struct ArmRows {
   bool yields = false;      // with coarse encoders: some joint at rest changes its count while another moves
   Index channels = 3;       // 6 with a gyroscope
   Index samples = 0;        // of the recording, used
+
+  // Scalar residuals.
+  [[nodiscard]] Index equations() const;
 };
 
 // The given rows of a stretch.

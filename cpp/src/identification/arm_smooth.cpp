@@ -1,6 +1,7 @@
 #include "arm_smooth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,16 @@ constexpr int filter_order = 4;
 constexpr double slowest_cutoff = 1.0;  // Hz
 constexpr double few_counts = 50.0;
 
+// Derivatives are those of the sixth-degree polynomial through seven samples: two-point differences would shrink them by
+// (2 pi f / rate)^2 / 6.
+constexpr Index window = 7;
+constexpr Index half_window = window / 2;
+using Weights = std::array<double, window>;
+constexpr std::array<Weights, 3> centre_weights{
+    Weights{-1.0 / 60.0, 3.0 / 20.0, -3.0 / 4.0, 0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
+    Weights{1.0 / 90.0, -3.0 / 20.0, 3.0 / 2.0, -49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0},
+    Weights{1.0 / 8.0, -1.0, 13.0 / 8.0, 0.0, -13.0 / 8.0, 1.0, -1.0 / 8.0}};
+
 SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate) {
   const auto pad = std::min<Index>(samples.rows() - 1, static_cast<Index>(std::lround(4.0 * rate / cutoff)));
   return sosfiltfilt(butter(filter_order, cutoff, rate), samples, PadType::even, pad);
@@ -22,12 +33,29 @@ SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, doub
 }  // namespace
 
 Eigen::VectorXd SmoothJoints::derivative(int order, Index joint, Index begin, Index count) const {
-  // Of the sixth-degree polynomial through seven samples: two-point differences would shrink it by (2 pi f / rate)^2 / 6.
-  constexpr Index window = 7;
   const Index first = std::clamp<Index>(begin - window, 0, std::max<Index>(0, position.rows() - window));
   const Index last = std::min(position.rows(), std::max(begin + count + window, first + window));
   const SamplesX around = position.col(joint).segment(first, last - first);
   return savgol_filter(around, window, window - 1, order, 1.0 / rate).col(0).segment(begin - first, count);
+}
+
+Eigen::VectorXd SmoothJoints::derivative(int order, Index joint, const Eigen::ArrayXi& rows) const {
+  const Weights& weights = centre_weights[static_cast<std::size_t>(order - 1)];
+  const double scale = std::pow(rate, order);
+  Eigen::VectorXd result(rows.size());
+  for (Index i = 0; i < rows.size(); ++i) {
+    const Index row = rows[i];
+    if (row < half_window || row + half_window >= position.rows()) {
+      result[i] = derivative(order, joint, row, 1)[0];
+      continue;
+    }
+    double sum = 0.0;
+    for (Index k = 0; k < window; ++k) {
+      sum += weights[static_cast<std::size_t>(k)] * position(row - half_window + k, joint);
+    }
+    result[i] = scale * sum;
+  }
+  return result;
 }
 
 SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope) {
@@ -149,6 +177,9 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
 }
 
 std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution) {
+  if (span.joints.size() == 1) {
+    return 0;
+  }
   double frequency = 0.0;
   for (Index j = 0; j < resolution.size(); ++j) {
     const double travel = range(span, moving, j);

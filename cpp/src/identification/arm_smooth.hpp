@@ -18,6 +18,8 @@ struct SmoothJoints {
 
   // Derivative of one joint's position over rows [begin, begin + count) of the span.
   [[nodiscard]] Eigen::VectorXd derivative(int order, Index joint, Index begin, Index count) const;
+  // The same at some rows of the span. order: 1, 2 or 3.
+  [[nodiscard]] Eigen::VectorXd derivative(int order, Index joint, const Eigen::ArrayXi& rows) const;
 };
 
 struct SmoothSpan {

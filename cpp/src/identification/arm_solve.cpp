@@ -110,11 +110,17 @@ class ArmCost final : public ceres::CostFunction {
     }
     return true;
   }
+  // The data's equations at `block`, which is mostly where the solver looked last.
+  std::vector<PartEquations> parts_at(const std::vector<double>& block) const {
+    const Eigen::Map<const Eigen::VectorXd> here(block.data(), flat_.size());
+    return evaluated_ == here ? std::move(parts_) : linearise_data(problem_, flat_.read(block.data()));
+  }
 
  private:
   void evaluate(const ArmState& state) const {
     const Index columns = problem_.layout.columns;
-    NormalEquations all = marginal(problem_, linearise_data(problem_, state)).equations;
+    parts_ = linearise_data(problem_, state);
+    NormalEquations all = marginal(problem_, parts_).equations;
     all += linearise_prior(problem_, state);
     // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
     all.information.diagonal() += 1e-14 * all.information.diagonal();
@@ -134,20 +140,35 @@ class ArmCost final : public ceres::CostFunction {
   const ArmProblem& problem_;
   const FlatState& flat_;
   mutable Eigen::VectorXd evaluated_;  // where the rest was evaluated
+  mutable std::vector<PartEquations> parts_;
   mutable Eigen::VectorXd residual_;
   mutable Eigen::MatrixXd root_;
   mutable bool usable_ = false;
 };
 
+// Ends once a step that was taken has lowered the sum of squares by little. Ceres' own tolerance drops that step.
+class EndAfterSmallStep final : public ceres::IterationCallback {
+ public:
+  explicit EndAfterSmallStep(double negligible_change) : negligible_change_(negligible_change) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    const bool small = iteration.iteration > 0 && iteration.step_is_successful && 2.0 * iteration.cost_change < negligible_change_;
+    return small ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double negligible_change_;
+};
+
 }  // namespace
 
-ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations) {
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations, double negligible_change) {
   const FlatState flat(start, problem.layout);
   std::vector<double> block(static_cast<std::size_t>(flat.size()));
   flat.write(start, block.data());
   ceres::Problem ceres_problem;
   ceres_problem.AddParameterBlock(block.data(), flat.size(), new ArmManifold(flat));
-  ceres_problem.AddResidualBlock(new ArmCost(problem, flat), nullptr, block.data());
+  auto* cost = new ArmCost(problem, flat);
+  ceres_problem.AddResidualBlock(cost, nullptr, block.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
@@ -155,13 +176,16 @@ ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iter
   options.function_tolerance = 1e-9;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-14;
+  EndAfterSmallStep end(negligible_change);
+  options.callbacks.push_back(&end);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
   ArmSolution solution;
   solution.state = flat.read(block.data());
+  solution.parts = cost->parts_at(block);
   solution.cost = 2.0 * summary.final_cost;
   solution.iterations = static_cast<int>(summary.iterations.size());
-  solution.converged = summary.termination_type == ceres::CONVERGENCE;
+  solution.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
   return solution;
 }
 

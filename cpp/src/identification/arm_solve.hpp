@@ -7,12 +7,14 @@ namespace circlepoint {
 
 struct ArmSolution {
   ArmState state;
+  std::vector<PartEquations> parts;  // at that state
   double cost = 0.0;
   int iterations = 0;
   bool converged = false;
 };
 
-// Levenberg-Marquardt (Ceres) with the noise as it is.
-ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations);
+// Levenberg-Marquardt (Ceres) with the noise as it is. Ends with a step that lowers the sum of squares by less than
+// `negligible_change`, or where none lowers it by 1e-9 of itself.
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations, double negligible_change = 0.0);
 
 }  // namespace circlepoint

@@ -72,6 +72,26 @@ void set_lever(CenterOfRotation& result, const PlaneTest& test, const Eigen::Vec
   result.lever_sensor = test.R_sensor_joint.leftCols<2>() * lever_joint;
 }
 
+NotIdentifiable growing_correction(double percussion_distance, double radius) {
+  return NotIdentifiable("the position method's correction for the centre of percussion (" +
+                         std::to_string(percussion_distance) + " m) grows from step to step at a radius of " +
+                         std::to_string(radius) +
+                         " m: the sensor is too near the axis for it, or too noisy; use the velocity, joint or "
+                         "whole-arm method");
+}
+
+// A path that was a circle and is none once it is corrected has been corrected too far.
+CircleFit circle_of(const Eigen::Ref<const Samples2>& path, bool corrected, double percussion_distance, double radius) {
+  try {
+    return fit_circle(path);
+  } catch (const NotIdentifiable&) {
+    if (corrected) {
+      throw growing_correction(percussion_distance, radius);
+    }
+    throw;
+  }
+}
+
 Samples3 with_zero_column(const Samples2& plane) {
   Samples3 path = Samples3::Zero(plane.rows(), 3);
   path.leftCols<2>() = plane;
@@ -94,25 +114,37 @@ CenterOfRotation center_by_position(const Eigen::Ref<const Eigen::VectorXd>& ang
   }
   CenterOfRotation result;
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(angle.size());
-  Eigen::Vector2d previous = Eigen::Vector2d::Constant(1e9);
+  Eigen::Vector2d previous = Eigen::Vector2d::Zero();
+  double first_radius = 0.0;
+  double first_step = 0.0;
+  double step = 0.0;
   for (result.iterations = 1; result.iterations <= options.max_iterations; ++result.iterations) {
     const Samples2 acceleration = plane_acceleration(test, rate, options.percussion_distance);
     const Samples2 velocity = cumulative_trapezoid(acceleration, test.dt, 0.0);
     const Samples2 path = cumulative_trapezoid(velocity, test.dt, 0.0);
-    const CircleFit circle = fit_circle(path.topRows(used));
+    const CircleFit circle = circle_of(path.topRows(used), result.iterations > 1, options.percussion_distance, first_radius);
     // The path starts at the sensor: the sensor's offset from the axis there is minus the centre.
     set_lever(result, test, rotate(-angle[0], -circle.center));
     result.residual_rms = circle.rms;
     result.point_std = circle.rms;
     result.path = with_zero_column(path.topRows(used));
-    result.converged = (circle.center - previous).norm() < options.tolerance;
+    step = (circle.center - previous).norm();
+    result.converged = result.iterations > 1 && step < options.tolerance;
     if (result.converged) {
       break;
+    }
+    if (result.iterations == 1) {
+      first_radius = circle.radius;
+    } else if (result.iterations == 2) {
+      first_step = step;
     }
     previous = circle.center;
     rate = velocity.rowwise().norm() / std::max(circle.radius, 1e-6);
   }
   result.iterations = std::min(result.iterations, options.max_iterations);
+  if (!result.converged && !(step < first_step) && result.iterations > 2) {
+    throw growing_correction(options.percussion_distance, first_radius);
+  }
   return result;
 }
 

@@ -112,6 +112,7 @@ std::vector<JointWork> gather_all(const Recording& recording, const Segmentation
     const std::optional<Index> test = best_test(segmentation, joint);
     if (test) {
       mine.samples = gather(recording, segmentation, *test, sensor.sensor, resolution, options);
+      mine.regression = make_regression(*mine.samples, options.filter_order);
       continue;
     }
     const auto column = recording.joint_positions.col(joint);
@@ -133,7 +134,8 @@ JointModelPrior prior_for(const SensorFromGravity& sensor, const JointCalibratio
   return prior;
 }
 
-// Fits every joint that has a test; a test that does not determine its joint leaves the reason.
+// Fits every joint that has a test, corrected for yielding by `chain` unless it is null; a test that does not determine its
+// joint leaves the reason.
 void fit_all(std::vector<JointWork>& work, const PartialChain* chain, const SensorFromGravity& sensor,
              const JointCalibrationOptions& options, double sample_rate) {
   for (JointWork& mine : work) {
@@ -143,16 +145,15 @@ void fit_all(std::vector<JointWork>& work, const PartialChain* chain, const Sens
     try {
       const TestNoise noise = mine.fitted ? mine.fitted->noise : TestNoise{};
       const bool slides = mine.type == JointType::prismatic;
-      if (options.method == CalibrationMethod::joint && slides) {
-        mine.fitted = fit_prismatic(*mine.samples, chain, noise, options);
-      } else if (slides) {
-        mine.fitted = fit_prismatic_by_paper(*mine.samples, sample_rate, options);
-      } else if (options.method == CalibrationMethod::joint) {
-        const JointModelPrior prior = prior_for(sensor, options, noise.static_std);
-        mine.fitted = fit_by_regression(*mine.samples, chain, prior, noise, options.filter_order);
-      } else {
-        mine.fitted = fit_by_paper(*mine.samples, options.method, sample_rate, options);
+      if (options.method != CalibrationMethod::joint) {
+        mine.fitted = slides ? fit_prismatic_by_paper(*mine.samples, mine.regression, sample_rate, options)
+                             : fit_by_paper(*mine.samples, mine.regression, options.method, sample_rate, options);
+        continue;
       }
+      const TestRegression regression =
+          chain != nullptr ? without_yielding(mine.regression, *mine.samples, *chain, options.filter_order) : mine.regression;
+      mine.fitted = slides ? fit_prismatic(*mine.samples, regression, noise, options)
+                           : fit_by_regression(*mine.samples, regression, prior_for(sensor, options, noise.static_std), noise);
     } catch (const NotIdentifiable& error) {
       mine.reason = error.what();
       mine.samples.reset();

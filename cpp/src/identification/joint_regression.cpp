@@ -159,39 +159,57 @@ std::vector<Eigen::Vector3d> candidate_axes(const Matrix53& coefficients) {
   return axes;
 }
 
-JointModelFit solve_from(const Whitened& whitened, const JointModelPrior& prior, const Eigen::Vector3d& start_axis) {
-  const Chart chart(start_axis);
+// A place in the model's chart and how it was reached.
+struct Descent {
+  Chart chart;
   std::array<double, joint_model_parameters> p{};
+  double cost = 0.0;
+  int iterations = 0;
+  bool converged = false;
+};
+
+Descent start_at(const Whitened& whitened, const JointModelPrior& prior, const Eigen::Vector3d& axis) {
+  Descent start{Chart(axis)};
   const Eigen::Vector3d cosine = whitened.coefficients.row(1);
   const Eigen::Vector3d sine = whitened.coefficients.row(2);
   const Eigen::Vector3d tangential = whitened.coefficients.row(3);
-  Eigen::Map<Eigen::Vector2d>(p.data() + 2) = chart.basis.transpose() * (0.5 * (cosine + start_axis.cross(sine)));
-  Eigen::Map<Eigen::Vector2d>(p.data() + 4) = chart.basis.transpose() * tangential.cross(start_axis);
-  Eigen::Map<Eigen::Vector3d>(p.data() + 6) = whitened.coefficients.row(0);
-  Eigen::Map<Eigen::Vector3d>(p.data() + 9).setConstant(prior.percussion_distance);
+  const Eigen::Matrix<double, 2, 3> in_plane = start.chart.basis.transpose();
+  Eigen::Map<Eigen::Vector2d>(start.p.data() + 2) = in_plane * (0.5 * (cosine + axis.cross(sine)));
+  Eigen::Map<Eigen::Vector2d>(start.p.data() + 4) = in_plane * tangential.cross(axis);
+  Eigen::Map<Eigen::Vector3d>(start.p.data() + 6) = whitened.coefficients.row(0);
+  Eigen::Map<Eigen::Vector3d>(start.p.data() + 9).setConstant(prior.percussion_distance);
+  return start;
+}
 
+void descend(Descent& descent, const Whitened& whitened, const JointModelPrior& prior, int max_iterations) {
   ceres::Problem problem;
-  auto* test = new ceres::AutoDiffCostFunction<WhitenedTest, 15, joint_model_parameters>(
-      new WhitenedTest{whitened.whitener, whitened.target, chart});
-  auto* known = new ceres::AutoDiffCostFunction<PriorResidual, 8, joint_model_parameters>(new PriorResidual{prior, chart});
-  problem.AddResidualBlock(test, nullptr, p.data());
-  problem.AddResidualBlock(known, nullptr, p.data());
+  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<WhitenedTest, 15, joint_model_parameters>(
+                               new WhitenedTest{whitened.whitener, whitened.target, descent.chart}),
+                           nullptr, descent.p.data());
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<PriorResidual, 8, joint_model_parameters>(new PriorResidual{prior, descent.chart}), nullptr,
+      descent.p.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;
+  options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-13;
   options.parameter_tolerance = 1e-13;
   options.gradient_tolerance = 1e-14;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  descent.cost = summary.final_cost;
+  descent.iterations += static_cast<int>(summary.iterations.size());
+  descent.converged = summary.termination_type == ceres::CONVERGENCE;
+}
 
-  const Chart::Point<double> found = chart(p.data());
+JointModelFit described(const Descent& descent) {
+  const Chart::Point<double> found = descent.chart(descent.p.data());
   JointModelFit fit;
   fit.model = {found.z.normalized(), found.lever, found.gravity, found.constant, found.percussion_distance};
-  fit.cost = summary.final_cost;
-  fit.iterations = static_cast<int>(summary.iterations.size());
-  fit.converged = summary.termination_type == ceres::CONVERGENCE;
+  fit.cost = descent.cost;
+  fit.iterations = descent.iterations;
+  fit.converged = descent.converged;
   return fit;
 }
 
@@ -326,19 +344,27 @@ JointModelFit fit_joint_model(const RegressionStatistics& weighted, const JointM
                           "joint alone, such as eq. (11) with 0.5 Hz over 150 degrees");
   }
   const Whitened whitened = whiten(weighted);
-  std::optional<JointModelFit> best;
+  // A start far off may crawl for hundreds of iterations; the best after a few is the one worth finishing.
+  constexpr int scouting_iterations = 12;
+  constexpr int max_iterations = 200;
+  std::optional<Descent> best;
   for (const Eigen::Vector3d& axis : candidate_axes(whitened.coefficients)) {
-    const JointModelFit fit = solve_from(whitened, prior, axis);
-    if (!best || fit.cost < best->cost) {
-      best = fit;
+    Descent descent = start_at(whitened, prior, axis);
+    descend(descent, whitened, prior, scouting_iterations);
+    if (!best || descent.cost < best->cost) {
+      best = descent;
     }
   }
   if (!best) {
     throw NotIdentifiable("the joint's readings do not change with its angle or acceleration: no axis can be seen; check that "
                           "the sensor moves with the joint");
   }
-  describe_at_solution(*best, whitened, prior);
-  return *best;
+  if (!best->converged) {
+    descend(*best, whitened, prior, max_iterations);
+  }
+  JointModelFit fit = described(*best);
+  describe_at_solution(fit, whitened, prior);
+  return fit;
 }
 
 }  // namespace circlepoint

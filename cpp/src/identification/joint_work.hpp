@@ -15,6 +15,7 @@ namespace circlepoint {
 struct JointWork {
   JointType type = JointType::revolute;
   std::optional<TestSamples> samples;
+  TestRegression regression;  // of the samples, where there are any
   std::optional<FittedTest> fitted;
   std::string reason;
 };

@@ -74,13 +74,12 @@ const char* what_to_record = "move this joint alone and briskly, for example 0.5
 
 }  // namespace
 
-FittedTest fit_prismatic(const TestSamples& samples, const PartialChain* chain, const TestNoise& noise,
+FittedTest fit_prismatic(const TestSamples& samples, const TestRegression& regression, const TestNoise& noise,
                          const JointCalibrationOptions& options) {
   if (samples.motions.empty()) {
     throw NotIdentifiable(std::string("only still poses of it were found, no motion, and at rest a sliding joint changes "
                                       "nothing the sensor reads; ") + what_to_record);
   }
-  const TestRegression regression = make_regression(samples, chain, options.filter_order);
   SamplesX x(regression.dynamic_regressors.rows(), 2);
   x << regression.dynamic_regressors.col(0), regression.dynamic_regressors.col(3);
   Samples3 y = regression.dynamic_readings;
@@ -137,7 +136,8 @@ FittedTest fit_prismatic(const TestSamples& samples, const PartialChain* chain, 
   return fitted;
 }
 
-FittedTest fit_prismatic_by_paper(const TestSamples& samples, double sample_rate, const JointCalibrationOptions& options) {
+FittedTest fit_prismatic_by_paper(const TestSamples& samples, const TestRegression& regression, double sample_rate,
+                                  const JointCalibrationOptions& options) {
   if (samples.motions.empty() || samples.dwell_force.rows() == 0) {
     throw NotIdentifiable(std::string(samples.motions.empty() ? "no motion of this joint alone was found; "
                                                               : "it never rests, and the reading at rest is subtracted; ") +
@@ -173,8 +173,7 @@ FittedTest fit_prismatic_by_paper(const TestSamples& samples, double sample_rate
                           two_digits(std::sqrt(across / std::max(along, 1e-300))) + " of their extent lies across it); " +
                           what_to_record);
   }
-  FittedTest fitted = describe(samples, make_regression(samples, nullptr, options.filter_order), constant.transpose(),
-                               std::abs(slope) * z, options.gravity);
+  FittedTest fitted = describe(samples, regression, constant.transpose(), std::abs(slope) * z, options.gravity);
   // The distance from the line taken as fully correlated, a cautious figure.
   fitted.fit.noise_covariance.topLeftCorner<2, 2>() = 0.5 * across / along * Eigen::Matrix2d::Identity();
   fitted.fit.acceleration_scale_std = std::sqrt(across / along);

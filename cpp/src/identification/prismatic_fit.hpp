@@ -9,13 +9,14 @@
 
 namespace circlepoint {
 
-// Least squares of filtered readings on the acceleration through the same filter; sandwich covariance. `chain` (null in the
-// first pass) corrects for yielding joints. Raises NotIdentifiable where the acceleration does not show in the readings.
-FittedTest fit_prismatic(const TestSamples& samples, const PartialChain* chain, const TestNoise& noise,
+// Least squares of filtered readings on the acceleration through the same filter; sandwich covariance. Raises
+// NotIdentifiable where the acceleration does not show in the readings.
+FittedTest fit_prismatic(const TestSamples& samples, const TestRegression& regression, const TestNoise& noise,
                          const JointCalibrationOptions& options);
 
 // As the paper would: the mean reading at rest subtracted, integrated once (velocity) or twice (position), and a straight
 // line fitted to what comes of it.
-FittedTest fit_prismatic_by_paper(const TestSamples& samples, double sample_rate, const JointCalibrationOptions& options);
+FittedTest fit_prismatic_by_paper(const TestSamples& samples, const TestRegression& regression, double sample_rate,
+                                  const JointCalibrationOptions& options);
 
 }  // namespace circlepoint

@@ -31,55 +31,34 @@ constexpr double half_pi_first = 1.57079632673412561417e+00;
 constexpr double half_pi_second = 6.07710050630396597660e-11;
 constexpr double half_pi_third = 2.02226624879595063154e-21;
 
-// Two registers at a time, so that the processor has another polynomial to work on while it waits.
-struct Twin {
-  Vector part[2];
-};
-constexpr ptrdiff_t twin_samples = 2 * static_cast<ptrdiff_t>(Quad::width);
-
-inline __attribute__((always_inline)) Twin operator+(const Twin& a, const Twin& b) {
-  return {{a.part[0] + b.part[0], a.part[1] + b.part[1]}};
+// The quadrant n, in the low bits of `shifted`, and r = x - n pi/2.
+inline __attribute__((always_inline)) void reduce(const Vector& x, Vector& shifted, Vector& r) {
+  const Vector shifter = 6755399441055744.0 - Vector{};  // 1.5 * 2^52: adding it rounds to an integer in the low bits
+  shifted = two_over_pi * x + shifter;
+  const Vector n = shifted - shifter;
+  r = ((x - half_pi_first * n) - half_pi_second * n) - half_pi_third * n;
 }
-inline __attribute__((always_inline)) Twin operator-(const Twin& a, const Twin& b) {
-  return {{a.part[0] - b.part[0], a.part[1] - b.part[1]}};
-}
-inline __attribute__((always_inline)) Twin operator*(const Twin& a, const Twin& b) {
-  return {{a.part[0] * b.part[0], a.part[1] * b.part[1]}};
-}
-inline __attribute__((always_inline)) Twin both(double value) { return {{value - Vector{}, value - Vector{}}}; }
-inline __attribute__((always_inline)) Twin operator+(double a, const Twin& b) { return both(a) + b; }
-inline __attribute__((always_inline)) Twin operator-(double a, const Twin& b) { return both(a) - b; }
-inline __attribute__((always_inline)) Twin operator*(double a, const Twin& b) { return both(a) * b; }
 
 // The minimax polynomials of W. J. Cody and W. Waite's range: sine and cosine to about one unit in the last place on
-// [-pi/4, pi/4] (coefficients of FreeBSD's msun, k_sin.c and k_cos.c).
-inline __attribute__((always_inline)) void cosine_and_sine(const Twin& x, Twin& cosine, Twin& sine) {
-  const Twin shifter = both(6755399441055744.0);  // 1.5 * 2^52: adding it rounds to an integer in the low bits
-  const Twin shifted = two_over_pi * x + shifter;
-  const Twin n = shifted - shifter;
-  const Twin r = ((x - half_pi_first * n) - half_pi_second * n) - half_pi_third * n;
-  const Twin z = r * r;
-  const Twin s =
-      r + (r * z) * (-1.66666666666666324348e-01 +
-                     z * (8.33333333332248946124e-03 +
-                          z * (-1.98412698298579493134e-04 +
-                               z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + 1.58969099521155010221e-10 * z)))));
-  const Twin c =
-      (1.0 - 0.5 * z) +
-      (z * z) * (4.16666666666666019037e-02 +
-                 z * (-1.38888888888741095749e-03 +
-                      z * (2.48015872894767294178e-05 +
-                           z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + -1.13596475577881948265e-11 * z)))));
+// [-pi/4, pi/4] (coefficients of FreeBSD's msun, k_sin.c and k_cos.c). Pairs of terms side by side (G. Estrin's scheme): in
+// W. G. Horner's every step would wait for the one before.
+inline __attribute__((always_inline)) void cosine_and_sine(const Vector& shifted, const Vector& r, Vector& cosine, Vector& sine) {
+  const Vector z = r * r;
+  const Vector z2 = z * z;
+  const Vector z4 = z2 * z2;
+  const Vector s = r + (r * z) * (((-1.66666666666666324348e-01 + 8.33333333332248946124e-03 * z) +
+                                   z2 * (-1.98412698298579493134e-04 + 2.75573137070700676789e-06 * z)) +
+                                  z4 * (-2.50507602534068634195e-08 + 1.58969099521155010221e-10 * z));
+  const Vector c = (1.0 - 0.5 * z) + z2 * (((4.16666666666666019037e-02 + -1.38888888888741095749e-03 * z) +
+                                            z2 * (2.48015872894767294178e-05 + -2.75573143513906633035e-07 * z)) +
+                                           z4 * (2.08757232129817482790e-09 + -1.13596475577881948265e-11 * z));
   constexpr long long sign = static_cast<long long>(1ULL << 63);
-#pragma GCC unroll 2
-  for (size_t p = 0; p < 2; ++p) {
-    const Integers first_bit = reinterpret_cast<Integers>(shifted.part[p]) << 63;  // of the quadrant: cosine and sine change places
-    const Integers second_bit = reinterpret_cast<Integers>(shifted.part[p]) << 62;
-    const Vector to_sine = first_bit < 0 ? c.part[p] : s.part[p];
-    const Vector to_cosine = first_bit < 0 ? s.part[p] : c.part[p];
-    sine.part[p] = reinterpret_cast<Vector>(reinterpret_cast<Integers>(to_sine) ^ (second_bit & sign));
-    cosine.part[p] = reinterpret_cast<Vector>(reinterpret_cast<Integers>(to_cosine) ^ ((first_bit ^ second_bit) & sign));
-  }
+  const Integers first_bit = reinterpret_cast<Integers>(shifted) << 63;  // of the quadrant: cosine and sine change places
+  const Integers second_bit = reinterpret_cast<Integers>(shifted) << 62;
+  const Vector to_sine = first_bit < 0 ? c : s;
+  const Vector to_cosine = first_bit < 0 ? s : c;
+  sine = reinterpret_cast<Vector>(reinterpret_cast<Integers>(to_sine) ^ (second_bit & sign));
+  cosine = reinterpret_cast<Vector>(reinterpret_cast<Integers>(to_cosine) ^ ((first_bit ^ second_bit) & sign));
 }
 
 struct Block {
@@ -233,35 +212,42 @@ void separate(const double* readings, ptrdiff_t samples, Block& block) {
   }
 }
 
+// All angles reduced first, then all polynomials: each loop's chain of operations is short enough for the processor to have the
+// next ones under way.
 void fill_cosine_and_sine(const double* angle, ptrdiff_t samples, Block& block) {
+  constexpr ptrdiff_t width = Quad::width;
   constexpr long long magnitude = ~static_cast<long long>(1ULL << 63);
   Integers beyond = {};
-  ptrdiff_t i = 0;
-  const auto fill = [&](const double* from) __attribute__((always_inline)) {
-    Twin x, cosine, sine;
-    load_vector(x.part[0], from);
-    load_vector(x.part[1], from + Quad::width);
-    cosine_and_sine(x, cosine, sine);
-#pragma GCC unroll 2
-    for (size_t p = 0; p < 2; ++p) {
-      beyond |= reinterpret_cast<Vector>(reinterpret_cast<Integers>(x.part[p]) & magnitude) > reduction_limit;
-      store_vector(block.x[1] + i + p * Quad::width, cosine.part[p]);
-      store_vector(block.x[2] + i + p * Quad::width, sine.part[p]);
-    }
-  };
-  for (; i + twin_samples <= samples; i += twin_samples) {
-    fill(angle + i);
+  double rest[width] = {};
+  const ptrdiff_t whole = samples / width * width;
+  for (ptrdiff_t k = whole; k < samples; ++k) {
+    rest[k - whole] = angle[k];
   }
-  if (i < samples) {
-    double rest[twin_samples] = {};
-    for (ptrdiff_t k = i; k < samples; ++k) {
-      rest[k - i] = angle[k];
-    }
-    fill(rest);
+  const auto fill = [&](ptrdiff_t i, const double* from) __attribute__((always_inline)) {
+    Vector x, shifted, r;
+    load_vector(x, from);
+    beyond |= reinterpret_cast<Vector>(reinterpret_cast<Integers>(x) & magnitude) > reduction_limit;
+    reduce(x, shifted, r);
+    store_vector(block.x[1] + i, r);
+    store_vector(block.x[2] + i, shifted);
+  };
+  for (ptrdiff_t i = 0; i < whole; i += width) {
+    fill(i, angle + i);
+  }
+  if (whole < samples) {
+    fill(whole, rest);
+  }
+  for (ptrdiff_t i = 0; i < samples; i += width) {
+    Vector shifted, r, cosine, sine;
+    load_vector(r, block.x[1] + i);
+    load_vector(shifted, block.x[2] + i);
+    cosine_and_sine(shifted, r, cosine, sine);
+    store_vector(block.x[1] + i, cosine);
+    store_vector(block.x[2] + i, sine);
   }
   for (size_t k = 0; k < Quad::width; ++k) {
     if (beyond[k] != 0) {
-      for (i = 0; i < samples; ++i) {
+      for (ptrdiff_t i = 0; i < samples; ++i) {
         block.x[1][i] = __builtin_cos(angle[i]);
         block.x[2][i] = __builtin_sin(angle[i]);
       }

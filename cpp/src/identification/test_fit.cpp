@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circlepoint/conditioning/butterworth.hpp"
 #include "circlepoint/core/error.hpp"
 #include "regression_noise.hpp"
 
 namespace circlepoint {
 namespace {
-
-using Matrix15 = Eigen::Matrix<double, 15, 15>;
 
 // Residual of the unconstrained regression: the noise to start from, before any model is fitted.
 double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<const Samples3>& y, int columns) {
@@ -26,61 +23,17 @@ double linear_residual(const Eigen::Ref<const Regressors>& x, const Eigen::Ref<c
 }
 
 // Rank and condition of the information in units of each parameter's own standard deviation.
-void describe_information(TestFit& fit, const JointModelMatrix& information) {
-  const Eigen::Matrix<double, joint_model_parameters, 1> root = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  const JointModelMatrix scaled = root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<JointModelMatrix> solver(scaled, Eigen::EigenvaluesOnly);
-  const Eigen::Matrix<double, joint_model_parameters, 1> eigenvalues = solver.eigenvalues();
+void describe_information(TestFit& fit, const Eigen::MatrixXd& information) {
+  const Eigen::VectorXd root = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd& eigenvalues = solver.eigenvalues();
   fit.parameters = joint_model_parameters;
   fit.rank = static_cast<int>((eigenvalues.array() > 1e-12 * eigenvalues[joint_model_parameters - 1]).count());
   fit.condition_number = eigenvalues[joint_model_parameters - 1] / std::max(eigenvalues[0], 1e-300);
 }
 
 }  // namespace
-
-TestRegression make_regression(const TestSamples& samples, const PartialChain* chain, int filter_order) {
-  const Index joint = samples.joint;
-  const double zero = samples.configuration[joint];
-  const bool correct = chain != nullptr && chain->knows(joint);
-  TestRegression problem;
-  const Index dwells = samples.dwell_force.rows();
-  const Eigen::VectorXd still = Eigen::VectorXd::Zero(dwells);
-  problem.static_regressors = joint_regressors(samples.dwell_positions.col(joint).array() - zero, still, still);
-  problem.static_readings = samples.dwell_force;
-  if (correct && dwells > 0) {
-    const SamplesX at_rest = SamplesX::Zero(dwells, samples.dwell_positions.cols());
-    problem.static_readings -=
-        yield_correction(*chain, joint, samples.configuration, samples.dwell_positions, at_rest, at_rest);
-  }
-  Index total = 0;
-  for (const MotionSamples& motion : samples.motions) {
-    total += motion.time.size() - motion.trim_begin - motion.trim_end;
-  }
-  problem.dynamic_regressors.resize(total, 5);
-  problem.dynamic_readings.resize(total, 3);
-  problem.time.resize(total);
-  problem.position.resize(total);
-  Index row = 0;
-  for (const MotionSamples& motion : samples.motions) {
-    problem.sample_rate = static_cast<double>(motion.time.size() - 1) / (motion.time[motion.time.size() - 1] - motion.time[0]);
-    SamplesX both(motion.time.size(), 8);
-    both.leftCols<5>() = joint_regressors(motion.position.col(joint).array() - zero, motion.velocity.col(joint),
-                                          motion.acceleration.col(joint));
-    both.rightCols<3>() = motion.specific_force;
-    if (correct) {
-      both.rightCols<3>() -= yield_correction(*chain, joint, samples.configuration, motion.position, motion.velocity,
-                                              motion.acceleration);
-    }
-    both = sosfiltfilt(butter(filter_order, samples.cutoff, problem.sample_rate), both);
-    const Index count = motion.time.size() - motion.trim_begin - motion.trim_end;
-    problem.dynamic_regressors.middleRows(row, count) = both.middleRows(motion.trim_begin, count).leftCols<5>();
-    problem.dynamic_readings.middleRows(row, count) = both.middleRows(motion.trim_begin, count).rightCols<3>();
-    problem.time.segment(row, count) = motion.time.segment(motion.trim_begin, count);
-    problem.position.segment(row, count) = motion.position.col(joint).segment(motion.trim_begin, count);
-    row += count;
-  }
-  return problem;
-}
 
 void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model,
                 const Matrix53& coefficients) {
@@ -102,14 +55,13 @@ void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& 
   fit.dynamic_noise_std = std::max(residual_rms(fit.measured - fit.modelled, 12.0), 1e-6);
 }
 
-FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* chain, const JointModelPrior& prior,
-                             const TestNoise& noise, int filter_order) {
+FittedTest fit_by_regression(const TestSamples& samples, const TestRegression& whole, const JointModelPrior& prior,
+                             const TestNoise& noise) {
   if (samples.motions.empty()) {
     throw NotIdentifiable("only still poses of it were found, no motion: they show the axis' direction but not its place; "
                           "record a motion of this joint alone, for example 0.5 Hz over 150 degrees for 6 s");
   }
-  TestRegression problem = make_regression(samples, chain, filter_order);
-  const TestRegression whole = problem;
+  TestRegression problem = whole;
   if (noise.kept.size() == problem.dynamic_readings.rows()) {
     problem.dynamic_regressors.array().colwise() *= noise.kept.array();
     problem.dynamic_readings.array().colwise() *= noise.kept.array();
@@ -146,30 +98,32 @@ FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* cha
   describe_information(fitted.fit, solution.data_information);
   fitted.fit.gravity_share = solution.model.gravity.norm() / prior.gravity;
 
-  // Sandwich: static part and prior as assumed, dynamic part as its residuals show.
-  const Matrix15 score = score_covariance(problem.dynamic_regressors, residual, problem.sample_rate);
+  // Sandwich: static part and prior as assumed, dynamic part as its residuals show. Matrices of dynamic size: written out for
+  // twelve and fifteen columns each product takes the compiler seconds and saves nothing.
+  const Eigen::MatrixXd jacobian = solution.jacobian;
+  const Eigen::MatrixXd score = score_covariance(problem.dynamic_regressors, residual, problem.sample_rate);
   const double variance = fitted.fit.dynamic_noise_std * fitted.fit.dynamic_noise_std;
   fitted.noise = {fitted.fit.static_noise_std, fitted.fit.dynamic_noise_std,
                   correlation_factor(score, moving.information, variance),
                   without_knocks(fitted.fit.measured - fitted.fit.modelled,
                                  static_cast<Index>(std::lround(0.5 * problem.sample_rate / samples.cutoff)))};
   fitted.fit.correlation_factor = fitted.noise.correlation_factor;
-  Matrix15 assumed = Matrix15::Zero();
+  Eigen::MatrixXd excess = dynamic_weight * dynamic_weight * score;  // of the scores, above what was assumed
   for (int channel = 0; channel < 3; ++channel) {
-    assumed.block<5, 5>(5 * channel, 5 * channel) = dynamic_weight * moving.information;
+    excess.block<5, 5>(5 * channel, 5 * channel) -= dynamic_weight * moving.information;
   }
-  const JointModelMatrix inverse = solution.information.inverse();
-  const JointModelMatrix meat = solution.information - solution.jacobian.transpose() * assumed * solution.jacobian +
-                                dynamic_weight * dynamic_weight * solution.jacobian.transpose() * score * solution.jacobian;
-  const JointModelMatrix covariance = inverse * meat * inverse;
-  const Eigen::Matrix<double, 4, joint_model_parameters> selector = JointModelFit::line_selector();
+  const Eigen::MatrixXd information = solution.information;
+  const Eigen::MatrixXd inverse = information.inverse();
+  const Eigen::MatrixXd meat = information + jacobian.transpose() * excess * jacobian;
+  const Eigen::MatrixXd covariance = inverse * meat * inverse;
+  const Eigen::MatrixXd selector = JointModelFit::line_selector();
   fitted.fit.noise_covariance = selector * covariance * selector.transpose();
   fitted.fit.percussion_distance_std = covariance.diagonal().tail<3>().cwiseMax(0.0).cwiseSqrt();
-  const Matrix53 square_score =
+  const Eigen::MatrixXd square_score =
       static_weight * problem.static_regressors.transpose() * problem.static_readings.cwiseAbs2() +
       dynamic_weight * problem.dynamic_regressors.transpose() * problem.dynamic_readings.cwiseAbs2();
-  const Eigen::Matrix<double, joint_model_parameters, sensor_errors> by_sensor =
-      inverse * solution.jacobian.transpose() * score_by_sensor(weighted.information, weighted.score, square_score);
+  const Eigen::MatrixXd by_sensor =
+      inverse * jacobian.transpose() * score_by_sensor(weighted.information, weighted.score, square_score);
   fitted.sensor_jacobian = selector * by_sensor;
   fitted.percussion_jacobian = by_sensor.bottomRows<3>();
   return fitted;

@@ -2,7 +2,7 @@
 // Fitting the test of a revolute joint, by the regression or by the paper's methods.
 
 #include "circlepoint/identification/joint_calibration.hpp"
-#include "partial_chain.hpp"
+#include "test_regression.hpp"
 #include "test_samples.hpp"
 
 namespace circlepoint {
@@ -27,26 +27,13 @@ struct FittedTest {
   PercussionJacobian percussion_jacobian = PercussionJacobian::Zero();  // of the percussion distances by the same
 };
 
-// Regression with the given noise; `chain` (null in the first pass) corrects for yielding joints.
-FittedTest fit_by_regression(const TestSamples& samples, const PartialChain* chain, const JointModelPrior& prior,
-                             const TestNoise& noise, int filter_order);
+// Regression with the given noise. Raises NotIdentifiable where there is no motion.
+FittedTest fit_by_regression(const TestSamples& samples, const TestRegression& regression, const JointModelPrior& prior,
+                             const TestNoise& noise);
 
 // The paper's axis by plane fit and centre by position or velocity.
-FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, double sample_rate,
-                        const JointCalibrationOptions& options);
-
-// The regression problem of a test: dwell means as they are, motions through the same low-pass as their regressors.
-struct TestRegression {
-  Regressors static_regressors;   // (K, 5)
-  Samples3 static_readings;       // (K, 3)
-  Regressors dynamic_regressors;  // (M, 5), filtered
-  Samples3 dynamic_readings;      // (M, 3), filtered
-  Eigen::VectorXd time;           // (M)
-  Eigen::VectorXd position;       // (M)
-  double sample_rate = 0.0;
-};
-
-TestRegression make_regression(const TestSamples& samples, const PartialChain* chain, int filter_order);
+FittedTest fit_by_paper(const TestSamples& samples, const TestRegression& regression, CalibrationMethod method,
+                        double sample_rate, const JointCalibrationOptions& options);
 
 // Signals, residual figures and the model itself into the fit.
 void record_fit(TestFit& fit, const TestSamples& samples, const TestRegression& regression, const JointModel& model,

@@ -29,8 +29,8 @@ Eigen::Matrix<double, 2, sensor_errors> direction_by_sensor(const Eigen::Ref<con
 
 }  // namespace
 
-FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, double sample_rate,
-                        const JointCalibrationOptions& options) {
+FittedTest fit_by_paper(const TestSamples& samples, const TestRegression& regression, CalibrationMethod method,
+                        double sample_rate, const JointCalibrationOptions& options) {
   if (samples.dwell_force.rows() < 3) {
     throw NotIdentifiable("the static test has " + std::to_string(samples.dwell_force.rows()) +
                           " poses and needs at least 3; hold the joint still at more angles, 1 s each");
@@ -59,8 +59,7 @@ FittedTest fit_by_paper(const TestSamples& samples, CalibrationMethod method, do
   model.percussion_distance.setConstant(options.sensor.percussion_distance);
 
   FittedTest fitted;
-  record_fit(fitted.fit, samples, make_regression(samples, nullptr, options.filter_order), model,
-             model.coefficients());
+  record_fit(fitted.fit, samples, regression, model, model.coefficients());
   fitted.fit.iterations = center.iterations;
   fitted.fit.converged = center.converged && axis.converged;
   fitted.fit.gravity_share = model.gravity.norm() / options.gravity;

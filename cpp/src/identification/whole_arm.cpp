@@ -19,6 +19,7 @@ namespace {
 
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
+constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
 
 // What calibrate_joints does not check.
@@ -88,7 +89,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const JointCalibrationOptions single = joint_options(options);
   JointCalibrationOptions quick = single;  // what is good enough to start from
   quick.use_resting_encoders = false;
-  quick.max_passes = 4;
+  quick.max_passes = 2;
   result.joints = calibrate_joints(recording, segmentation, quick);
   const Eigen::VectorXd resolution = encoder_resolution(recording, single);
   std::vector<bool> moves;
@@ -138,25 +139,29 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   std::vector<PartEquations> parts;
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   ArmResiduals now;
+  InflationSearch search;
   for (int pass = 0; pass < options.max_passes; ++pass) {
-    const ArmSolution solution = solve(problem, state, 50);
+    ArmSolution solution = solve(problem, state, 50, last_change);
     result.iterations += solution.iterations;
     const ArmState former = state;
     state = solution.state;
-    parts = linearise_data(problem, state);
+    parts = std::move(solution.parts);
     const MarginalEquations data = marginal(problem, parts);
     all = data.equations;
     problem.offsets = data.offsets;
-    information = all.information + linearise_prior(problem, state).information;
+    const NormalEquations prior = linearise_prior(problem, state);
+    information = all.information + prior.information;
     covariance = inverse(information);
     now = residuals(problem, state);
-    result.converged = pass > 2 && solution.converged && largest_step(former, state, problem.layout, covariance) < still;
+    const Eigen::VectorXd gradient = all.gradient + prior.gradient;
+    const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
+    result.converged = pass > 2 && left < still && largest_step(former, state, problem.layout, covariance) < still;
     // What follows changes rows and weights, which only another pass takes in.
     if (result.converged || pass + 1 == options.max_passes) {
       break;
     }
     // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
-    const double inflation = pass > 0 ? std::max(1.0, problem.noise.inflation * score_ratio(problem, parts, covariance)) : 1.0;
+    const double inflation = pass > 0 ? search.next(problem.noise.inflation, score_ratio(problem, parts, covariance)) : 1.0;
     if (pass > 0 && pass < 4) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
@@ -172,10 +177,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   }
   result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();
-  result.rows = now.dwells_normalized.size();
+  result.rows = problem.rows.equations();
   for (const Eigen::MatrixXd& whitened : now.whitened) {
     squares += problem.noise.inflation * whitened.squaredNorm();
-    result.rows += whitened.size();
   }
   result.normalized_rms = std::sqrt(squares / static_cast<double>(result.rows));
 

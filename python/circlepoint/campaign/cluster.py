@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+import logging
+from contextlib import contextmanager
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from circlepoint._core import InvalidInput, __version__
 
@@ -13,15 +17,35 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 _tasks_per_thread = 2
 _connect_seconds = 20
+_patience_seconds = 15
+
+
+@dataclass(frozen=True)
+class Lost:
+    """In place of a result: all workers that the task was given to were lost, also when it was the only one.
+
+    Attributes
+    ----------
+    worker : str
+        Address of the last one.
+    """
+
+    worker: str
 
 
 def on_cluster(
-    address: str, work: Callable[[Any, Item], Result], common: Any, items: Iterable[Item]
-) -> Iterator[tuple[Item, Result]]:
+    address: str,
+    work: Callable[[Any, Item], Result],
+    common: Any,
+    items: Iterable[Item],
+    *,
+    tell: Callable[[str], None] | None = None,
+) -> Iterator[tuple[Item, Result | Lost]]:
     """Yield each item with its result, as they come.
 
     A few tasks a thread are under way at any time, whatever the number of items. Dask runs a task again whose worker is
-    lost; every task carries all it needs.
+    lost, and gives it up after some (``distributed.scheduler.allowed-failures``). It may be innocent, for it is blamed
+    for what its neighbours do; so it runs once more, alone, when all others are done. Every task carries all it needs.
 
     Parameters
     ----------
@@ -32,15 +56,16 @@ def on_cluster(
     common : object
         Sent with every task; small.
     items : iterable
+    tell : callable, optional
+        Called with what a user should know while nothing comes: that there are no workers.
 
     Raises
     ------
     InvalidInput
-        Without Dask, without the scheduler, with workers that lack this package or have another version, and when a
-        task took down one worker after the other.
+        Without Dask, without the scheduler, and with workers that lack this package or have another version.
     """
     try:
-        from distributed import CancelledError, Client, KilledWorker, as_completed  # noqa: PLC0415  (an extra)
+        from distributed import CancelledError, Client  # noqa: PLC0415  (an extra)
     except ImportError as error:
         raise InvalidInput(
             "--scheduler needs Dask: pip install 'distributed>=2024.5' (the extra circlepoint[dask])"
@@ -51,31 +76,18 @@ def on_cluster(
         raise InvalidInput(
             f"--scheduler {address}: no Dask scheduler answers there ({error}); start it, or mend the address"
         ) from error
-    waiting = iter(items)
-    items_of: dict[str, Item] = {}
-
-    def submit() -> list[Any]:
-        """Fill up to the number of tasks that keeps every thread busy."""
-        wanted = _tasks_per_thread * max(sum(client.nthreads().values()), 1)
-        futures = []
-        while len(items_of) < wanted and (item := next(waiting, None)) is not None:
-            future = client.submit(_checked, __version__, work, common, item, pure=False)
-            items_of[str(future.key)] = item
-            futures.append(future)
-        return futures
-
     try:
-        with client:
-            running = as_completed(submit(), loop=client.loop)
-            for future in running:
-                result: Result = future.result()
-                yield items_of.pop(str(future.key)), result
-                running.update(submit())
-    except KilledWorker as error:
-        raise InvalidInput(
-            f"--scheduler {address}: a task's workers were lost again and again ({error}); give the workers more "
-            "memory, or the campaign a smaller batch. What is finished is kept: run it again"
-        ) from error
+        with _quiet(), client:
+            tasks: _Tasks[Item, Result] = _Tasks(
+                client, address, lambda item: (_checked, __version__, work, common, item), tell
+            )
+            suspects = []
+            for item, result in tasks.run(items, None):
+                if isinstance(result, Lost):
+                    suspects.append(item)
+                else:
+                    yield item, result
+            yield from tasks.run(suspects, 1)
     except ModuleNotFoundError as error:
         raise InvalidInput(
             f"--scheduler {address}: the workers have no module {error.name!r}; install circlepoint {__version__} there"
@@ -84,6 +96,79 @@ def on_cluster(
         raise InvalidInput(
             f"--scheduler {address}: the connection was lost ({error}). What is finished is kept: run it again"
         ) from error
+
+
+class _Tasks(Generic[Item, Result]):
+    """Keeps a number of tasks under way."""
+
+    def __init__(
+        self, client: Any, address: str, call: Callable[[Item], tuple[Any, ...]], tell: Callable[[str], None] | None
+    ) -> None:
+        self._client, self._address, self._call, self._tell = client, address, call, tell
+        self._done: SimpleQueue[Any] = SimpleQueue()
+
+    def run(self, items: Iterable[Item], at_once: int | None) -> Iterator[tuple[Item, Result | Lost]]:
+        """Yield items with results; so many tasks at once, or as many as keep every thread busy."""
+        from distributed import KilledWorker  # noqa: PLC0415
+
+        waiting = iter(items)
+        under_way: dict[str, tuple[Item, Any]] = {}
+        more = True
+        while True:
+            wanted = at_once or _tasks_per_thread * max(self._threads(), 1)
+            while more and len(under_way) < wanted:
+                item = next(waiting, None)
+                if item is None:
+                    more = False
+                    break
+                future = self._client.submit(*self._call(item), pure=False)
+                under_way[str(future.key)] = item, future
+                future.add_done_callback(self._done.put)
+            if not under_way:
+                return
+            future = self._next()
+            item, _ = under_way.pop(str(future.key))
+            result: Result | Lost
+            try:
+                result = future.result()
+            except KilledWorker as error:
+                result = Lost(error.last_worker.address)
+            except OSError as error:
+                if future.status != "error":
+                    raise
+                raise InvalidInput(
+                    f"--scheduler {self._address}: a worker failed: {error}. What is finished is kept: mend the worker "
+                    "and run it again"
+                ) from error
+            yield item, result
+
+    def _next(self) -> Any:
+        """Wait for a task's end; say so once when there is nobody to bring it about."""
+        told = False
+        while True:
+            try:
+                return self._done.get(timeout=_patience_seconds)
+            except Empty:
+                if not told and self._tell is not None and not self._threads():
+                    self._tell(f"--scheduler {self._address}: it has no workers; waiting for some")
+                    told = True
+
+    def _threads(self) -> int:
+        return sum(self._client.nthreads().values())
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep Dask from logging on the way what is told here in the end: workers and connections that are lost."""
+    handlers = logging.getLogger("distributed").handlers
+    levels = [handler.level for handler in handlers]
+    for handler in handlers:
+        handler.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for handler, level in zip(handlers, levels, strict=True):
+            handler.setLevel(level)
 
 
 def _checked(version: str, work: Callable[[Any, Item], Result], common: Any, item: Item) -> Result:

@@ -6,9 +6,12 @@ finished. DIR/fleet.parquet (a row a log) and DIR/joints.parquet (a row a joint)
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import json
 import multiprocessing
 import shutil
+import signal
 import tempfile
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -21,7 +24,7 @@ from circlepoint._core import InvalidInput
 from circlepoint.arm import load_arm
 from circlepoint.atomic import write_atomically
 from circlepoint.campaign import folder as folders
-from circlepoint.campaign.cluster import on_cluster
+from circlepoint.campaign.cluster import Lost, on_cluster
 from circlepoint.document import Document, generator_entry
 from circlepoint.failures import explain
 from circlepoint.report.rounding import ABSENT, significant
@@ -30,13 +33,20 @@ from circlepoint.sensor_presets import load_sensor
 from circlepoint.text_table import aligned
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Generator, Iterator, Sequence
+    from concurrent.futures import Future
 
     from circlepoint.campaign.fleet_config import Fleet, FleetLog
     from circlepoint.campaign.run import Watcher
 
 SCHEMA_NAME = "circlepoint/fleet-summary/1"
+_SCRATCH = ".scratch"
+_DISK_FAULTS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO}
 _KILLED = "its process was killed, likely for want of memory; thin the log out, or give fewer workers"
+_KILLED_THERE = (
+    "every worker of the cluster that was given it was killed, likely for want of memory; thin the log out, or give "
+    "the workers more memory or fewer threads"
+)
 COMPLETE, INCOMPLETE, FAILED = "complete", "incomplete", "failed"
 
 _LOG_COLUMNS = {
@@ -76,11 +86,15 @@ _JOINT_COLUMNS = {
 
 
 class Calibrated(NamedTuple):
-    """What became of a log: its row, its joints' rows, and the files of its result folder."""
+    """What became of a log: its row, its joints' rows, and the files of its result folder.
+
+    One that wanted memory, as one whose process was killed, is calibrated `again` when the fleet is run again.
+    """
 
     row: Document
     joints: list[Document]
     files: dict[str, bytes]
+    again: bool = False
 
 
 def run_fleet(
@@ -106,28 +120,39 @@ def run_fleet(
     with folders.only_writer(out):
         folders.claim(out, {"config": {"fleet": True}, "files": {}}, fleet.path)
         folders.remove_unfinished(out)
+        scratch = _emptied(out / _SCRATCH)
         waiting = [log for log in fleet.logs if not _is_finished(out, log, fleet.path)]
         if watcher is not None:
             watcher.begin(len(fleet.logs), len(fleet.logs) - len(waiting))
         if scheduler is not None and waiting:
-            run = on_cluster(scheduler, _on_worker, None, waiting)
+            run = _there(waiting, scheduler, watcher)
         elif min(workers, len(waiting)) <= 1:
-            run = ((log, calibrate_log(log)) for log in waiting)
+            run = ((log, calibrate_log(log, scratch)) for log in waiting)
         else:
-            run = _in_processes(waiting, min(workers, len(waiting)))
+            run = _in_processes(waiting, min(workers, len(waiting)), scratch)
         # As they are before the calibration: what changes meanwhile has not been calibrated.
         settings = {log.name: log.settings() for log in waiting}
-        for log, calibrated in run:
-            _keep(out, log, calibrated, settings[log.name])
-            if watcher is not None:
-                watcher.advance(1)
+        try:
+            with contextlib.closing(run):
+                for log, calibrated in run:
+                    _keep(out, log, calibrated, settings[log.name], scratch)
+                    if watcher is not None:
+                        watcher.advance(1)
+        finally:
+            shutil.rmtree(scratch, ignore_errors=True)
         return _collect(fleet, out)
 
 
-def calibrate_log(log: FleetLog) -> Calibrated:
-    """Calibrate one log; whatever is wrong with it is a row that says so."""
+def calibrate_log(log: FleetLog, scratch: Path | None = None) -> Calibrated:
+    """Calibrate one log, with files on the way in `scratch`; whatever is wrong with it is a row that says so.
+
+    Raises
+    ------
+    OSError
+        When the disk is full or broken: no fault of the log, and the next one would meet the same.
+    """
     row = _failed(log)
-    with tempfile.TemporaryDirectory(prefix="circlepoint-") as name:
+    with tempfile.TemporaryDirectory(prefix="circlepoint-", dir=scratch) as name:
         folder = Path(name)
         try:
             arm = load_arm(log.arm, base=log.base, tip=log.tip)
@@ -145,8 +170,10 @@ def calibrate_log(log: FleetLog) -> Calibrated:
                 imu_topic=log.imu_topic,
             )
             document = calibrate_into(folder, job, arm).document
-        except Exception as error:  # noqa: BLE001  (one bad log does not stop the rest)
-            return Calibrated({**row, "error": explain(error)[0]}, [], {})
+        except Exception as error:
+            if isinstance(error, OSError) and error.errno in _DISK_FAULTS:
+                raise
+            return Calibrated({**row, "error": explain(error)[0]}, [], {}, again=isinstance(error, MemoryError))
         files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     return Calibrated(
         row | _log_figures(document), [_joint_figures(log.name, joint) for joint in document["joints"]], files
@@ -234,19 +261,27 @@ def _is_finished(out: Path, log: FleetLog, source: Path) -> bool:
     return not changed
 
 
-def _keep(out: Path, log: FleetLog, calibrated: Calibrated, settings: Document) -> None:
-    """Write a log's result folder, then its row; one whose process was killed is to be calibrated again."""
+def _emptied(folder: Path) -> Path:
+    """Return a folder with nothing in it; what a killed process left there is taken away."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    return folder
+
+
+def _keep(out: Path, log: FleetLog, calibrated: Calibrated, settings: Document, scratch: Path) -> None:
+    """Write a log's result folder, then its row."""
     target = out / "results" / log.name
-    fresh = target.with_name(f".{log.name}.new")
+    fresh = scratch / log.name
     shutil.rmtree(fresh, ignore_errors=True)
     shutil.rmtree(target, ignore_errors=True)
+    target.parent.mkdir(exist_ok=True)
     for name, content in calibrated.files.items():
         (fresh / name).parent.mkdir(parents=True, exist_ok=True)
-        (fresh / name).write_bytes(content)
+        write_atomically(fresh / name, content)
     if calibrated.files:
         fresh.rename(target)
     kept = {
-        "settings": {} if calibrated.row["error"] == _KILLED else settings,
+        "settings": {} if calibrated.again else settings,
         "row": calibrated.row,
         "joints": calibrated.joints,
     }
@@ -274,11 +309,18 @@ def _table(rows: Sequence[Document], columns: dict[str, pa.DataType]) -> pa.Tabl
     return pa.table({name: pa.array([row[name] for row in rows], kind) for name, kind in columns.items()})
 
 
+def _there(logs: list[FleetLog], scheduler: str, watcher: Watcher | None) -> Generator[tuple[FleetLog, Calibrated]]:
+    """Calibrate on a cluster; a log that takes its workers down fails alone."""
+    tell = None if watcher is None else watcher.tell
+    for log, calibrated in on_cluster(scheduler, _on_worker, None, logs, tell=tell):
+        yield log, _killed(log, _KILLED_THERE) if isinstance(calibrated, Lost) else calibrated
+
+
 def _on_worker(_: None, log: FleetLog) -> Calibrated:
     return calibrate_log(log)
 
 
-def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog, Calibrated]]:
+def _in_processes(logs: list[FleetLog], workers: int, scratch: Path) -> Generator[tuple[FleetLog, Calibrated]]:
     """Calibrate in processes; a log that takes its process down fails alone."""
     waiting = list(logs)
     suspects: list[FleetLog] = []  # in hand when a process was killed
@@ -288,7 +330,7 @@ def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog
             try:
                 while waiting or running:
                     while waiting and len(running) < workers:
-                        running[pool.submit(calibrate_log, waiting[0])] = waiting[0]
+                        running[_submit(pool, waiting[0], scratch)] = waiting[0]
                         del waiting[0]
                     for future in wait(running, return_when=FIRST_COMPLETED).done:
                         calibrated = future.result()
@@ -298,9 +340,13 @@ def _in_processes(logs: list[FleetLog], workers: int) -> Iterator[tuple[FleetLog
     for log in suspects:
         with _pool(1) as pool:
             try:
-                yield log, pool.submit(calibrate_log, log).result()
+                yield log, _submit(pool, log, scratch).result()
             except BrokenProcessPool:
-                yield log, Calibrated(_failed(log, _KILLED), [], {})
+                yield log, _killed(log, _KILLED)
+
+
+def _killed(log: FleetLog, error: str) -> Calibrated:
+    return Calibrated(_failed(log, error), [], {}, again=True)
 
 
 def _failed(log: FleetLog, error: str | None = None) -> Document:
@@ -316,5 +362,23 @@ def _failed(log: FleetLog, error: str | None = None) -> Document:
     }
 
 
-def _pool(workers: int) -> ProcessPoolExecutor:
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+@contextlib.contextmanager
+def _pool(workers: int) -> Iterator[ProcessPoolExecutor]:
+    """Give processes, which are not waited for when this one is interrupted or has given up."""
+    others = set(multiprocessing.active_children())
+    with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")) as pool:
+        try:
+            yield pool
+        except BaseException:
+            for process in set(multiprocessing.active_children()) - others:
+                process.kill()
+            raise
+
+
+def _submit(pool: ProcessPoolExecutor, log: FleetLog, scratch: Path) -> Future[Calibrated]:
+    """Submit a log; the process this may begin leaves an interruption from the keyboard to this one."""
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        return pool.submit(calibrate_log, log, scratch)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)

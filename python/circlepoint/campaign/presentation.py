@@ -75,10 +75,11 @@ def _uncertain(interval: Document | None, factor: float, digits: int = 3) -> str
 
 
 def _share(interval: Document | None) -> str:
-    """Return a coverage in per cent with half its 95 % interval."""
+    """Return a coverage in per cent, and how far its 95 % interval reaches on the longer side."""
     if interval is None:
         return ABSENT
-    return f"{100 * interval['value']:.1f} {PLUS_MINUS} {50 * (interval['high'] - interval['low']):.1f}"
+    value = interval["value"]
+    return f"{100 * value:.1f} {PLUS_MINUS} {100 * max(interval['high'] - value, value - interval['low']):.1f}"
 
 
 def _complaints(summary: Document) -> list[str]:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from circlepoint._core import InvalidInput
 from circlepoint.campaign import folder as folders
-from circlepoint.campaign.cluster import on_cluster
+from circlepoint.campaign.cluster import Lost, on_cluster
 from circlepoint.campaign.config import Batch, Campaign, load_campaign
 from circlepoint.campaign.summary import summarise
 from circlepoint.campaign.trials import TrialRunner
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from circlepoint.document import Document
 
 
+_most_told = 3
+
+
 class Watcher(Protocol):
     """What is told of a campaign under way."""
 
@@ -30,6 +34,9 @@ class Watcher(Protocol):
 
     def advance(self, trials: int) -> None:
         """Hear of trials done."""
+
+    def tell(self, message: str) -> None:
+        """Hear why nothing comes."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +66,8 @@ def run_campaign(
     Raises
     ------
     InvalidInput
-        When the folder holds another campaign, or another process is writing to it.
+        When the folder holds another campaign, or another process is writing to it; at the end, when batches took
+        down every worker they were given to.
     """
     with folders.only_writer(out):
         description = {
@@ -72,14 +80,21 @@ def run_campaign(
         waiting = [batch for batch in campaign.batches() if not folders.finished(batch_path(out, batch), batch.trials)]
         if watcher is not None:
             watcher.begin(campaign.total, campaign.total - sum(batch.trials for batch in waiting))
+        run: Iterator[tuple[Batch, pa.Table | Lost]]
         if scheduler is None or not waiting:
             run = _here(campaign, waiting, workers, watcher)
         else:
-            run = _there(campaign, waiting, scheduler)
+            run = _there(campaign, waiting, scheduler, watcher)
+        lost = []
         for batch, table in run:
+            if isinstance(table, Lost):
+                lost.append((batch, table))
+                continue
             folders.write_table(batch_path(out, batch), table)
             if watcher is not None and scheduler is not None:
                 watcher.advance(batch.trials)
+        if lost:
+            raise InvalidInput(_told_of(campaign, lost))
         return summarise(campaign, ((batch.cell, batch_path(out, batch)) for batch in campaign.batches()))
 
 
@@ -104,9 +119,26 @@ def _here(
         yield batch, runner.run(batch, workers, progress)
 
 
-def _there(campaign: Campaign, batches: list[Batch], scheduler: str) -> Iterator[tuple[Batch, pa.Table]]:
+def _there(
+    campaign: Campaign, batches: list[Batch], scheduler: str, watcher: Watcher | None
+) -> Iterator[tuple[Batch, pa.Table | Lost]]:
     bundle = Bundle(campaign.path.read_text(encoding="utf-8-sig"), tuple(sorted(campaign.files.items())))
-    return on_cluster(scheduler, run_bundled, bundle, batches)
+    return on_cluster(scheduler, run_bundled, bundle, batches, tell=None if watcher is None else watcher.tell)
+
+
+def _told_of(campaign: Campaign, lost: list[tuple[Batch, Lost]]) -> str:
+    """Return what to tell of batches that took down every worker they were given to."""
+    trials = "; ".join(
+        f"cell {batch.cell} ({', '.join(campaign.cells[batch.cell].labels.values())}), trials {batch.begin} to "
+        f"{batch.end - 1}"
+        for batch, _ in lost[:_most_told]
+    )
+    more = f"; and {len(lost) - _most_told} batches more" if len(lost) > _most_told else ""
+    return (
+        f"{campaign.path}: {trials}{more}: every worker that was given them was killed, the last at "
+        f"{lost[-1][1].worker}, likely for want of memory. All else is finished and kept: give the workers more "
+        "memory, or fewer threads, and run it again; or run it without --scheduler on a machine that has enough"
+    )
 
 
 def run_bundled(bundle: Bundle, batch: Batch) -> pa.Table:

@@ -1,9 +1,9 @@
-"""Statistics of trials, gathered batch by batch in constant memory.
+"""Statistics of trials, gathered some at a time in constant memory.
 
-Everything is a sum over trials, added in the order of the batches, so that the same batches give the same bits. Figures
-of one trial depend on each other (its joints share a sensor and a recording); trials do not. Intervals are therefore
-those of means over trials, and a share over several parameters counts as as many independent observations as its
-scatter from trial to trial says.
+Everything is a sum over trials, added in their order and as many at a time, so that the same batches give the same
+bits. Figures of one trial depend on each other (its joints share a sensor and a recording); trials do not. Intervals
+are therefore those of means over trials, and a share over several parameters counts as as many independent observations
+as its scatter from trial to trial says.
 """
 
 from __future__ import annotations

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
+from itertools import groupby
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 
+from circlepoint._core import InvalidInput
 from circlepoint.campaign.statistics import LEVELS, ErrorStatistics, Interval, MeanOfTrials
 from circlepoint.campaign.trials import END_POINT, NEES, SENSOR_FIGURES, STD, line_columns
 from circlepoint.document import Document, generator_entry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
-    import pyarrow as pa
     from numpy.typing import NDArray
 
     from circlepoint.campaign.config import Campaign, Cell
@@ -24,6 +28,9 @@ if TYPE_CHECKING:
 SCHEMA_NAME = "circlepoint/campaign-summary/1"
 DIRECTION, POINT = "direction", "point"
 _most_reasons = 5
+_rows_together = 4096
+# Reasons that differ in these alone are one, or there would be as many as trials; "joint 2" and a name are no figures.
+_figure_in_text = re.compile(r"(?<!joint )(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
 
 
 class CellStatistics:
@@ -47,6 +54,7 @@ class CellStatistics:
         self._end_point_variance = MeanOfTrials()
         self._outcomes: Counter[str] = Counter()
         self._reasons: Counter[str] = Counter()
+        self._first_reason: dict[str, str] = {}
         self._converged = 0
 
     def add(self, table: pa.Table) -> None:
@@ -64,7 +72,11 @@ class CellStatistics:
         self._end_point.add(end_point[:, 0] ** 2)
         self._end_point_variance.add(end_point[:, 1] ** 2)
         self._outcomes.update(table.column("outcome").to_pylist())
-        self._reasons.update(reason for reason in table.column("reason").to_pylist() if reason)
+        for reason in table.column("reason").to_pylist():
+            if reason:
+                kind = _figure_in_text.sub("#", reason)
+                self._first_reason.setdefault(kind, reason)
+                self._reasons[kind] += 1
         self._converged += sum(table.column("converged").to_pylist())
 
     def entry(self) -> Document:
@@ -77,7 +89,8 @@ class CellStatistics:
             **{outcome: self._outcomes[outcome] for outcome in ("complete", "incomplete", "failed")},
             "converged": self._converged,
             "reasons": [
-                {"reason": reason, "trials": count} for reason, count in self._reasons.most_common(_most_reasons)
+                {"reason": self._first_reason[kind], "trials": count}
+                for kind, count in self._reasons.most_common(_most_reasons)
             ],
             "end_point": {
                 "rmse": _interval(self._end_point.root()),
@@ -99,11 +112,12 @@ def summarise(campaign: Campaign, batches: Iterable[tuple[int, Path]]) -> Docume
     ----------
     campaign : Campaign
     batches : iterable of (cell, path)
-        The tables of all batches, in order; one is in memory at a time.
+        The tables of all batches, in order; some thousand rows are in memory at a time.
     """
     cells = [CellStatistics(cell) for cell in campaign.cells]
-    for cell, path in batches:
-        cells[cell].add(pq.read_table(path))
+    for cell, of_cell in groupby(batches, key=itemgetter(0)):
+        for table in _together(_read(path) for _, path in of_cell):
+            cells[cell].add(table)
     return {
         "schema": SCHEMA_NAME,
         "generator": generator_entry(),
@@ -112,6 +126,28 @@ def summarise(campaign: Campaign, batches: Iterable[tuple[int, Path]]) -> Docume
         "trials_per_cell": campaign.trials,
         "cells": [cell.entry() for cell in cells],
     }
+
+
+def _read(path: Path) -> pa.Table:
+    try:
+        with pq.ParquetFile(path) as file:
+            return file.read(use_threads=False)
+    except (pa.ArrowException, OSError) as error:
+        raise InvalidInput(
+            f"{path}: cannot be read ({error}), though it was whole; take it away and run the same command again"
+        ) from error
+
+
+def _together(tables: Iterable[pa.Table]) -> Iterator[pa.Table]:
+    """Put small tables together: a million trials are ten thousand tables, and each addition has its cost."""
+    held: list[pa.Table] = []
+    for table in tables:
+        held.append(table)
+        if sum(len(part) for part in held) >= _rows_together:
+            yield pa.concat_tables(held)
+            held = []
+    if held:
+        yield pa.concat_tables(held)
 
 
 def _entry(statistics: ErrorStatistics) -> Document:

@@ -64,7 +64,10 @@ def run(options: argparse.Namespace) -> int:
     from circlepoint.campaign.fleet_config import is_fleet  # noqa: PLC0415  (keeps `circlepoint --help` quick)
 
     require_writable_folder(options.out)
-    return _run_fleet(options) if is_fleet(options.config) else _run_trials(options)
+    try:
+        return _run_fleet(options) if is_fleet(options.config) else _run_trials(options)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt("what is finished is kept, and the same command goes on with the rest") from None
 
 
 def _run_trials(options: argparse.Namespace) -> int:
@@ -147,6 +150,10 @@ class _Progress:
         """Count on."""
         if self._bar is not None:
             self._bar.update(done)
+
+    def tell(self, message: str) -> None:
+        """Say why nothing comes, also in a pipe."""
+        tqdm.write(f"circlepoint: {message}", file=sys.stderr)
 
 
 def _workers(text: str) -> int:

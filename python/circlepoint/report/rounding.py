@@ -14,6 +14,7 @@ MINUS = "\N{MINUS SIGN}"
 FREE = "free"
 ABSENT = "\N{EN DASH}"
 _most_decimals = 9
+_smallest_plain, _largest_plain = 1e-6, 1e6
 
 
 def decimals_of(std: float | None, default: int) -> int:
@@ -51,11 +52,13 @@ def format_std(std: float | None) -> str:
 
 
 def significant(value: float | None, digits: int = 2) -> str:
-    """Return a number with that many significant digits, in plain notation."""
+    """Return a number with that many significant digits: in plain notation, unless that is longer than it says."""
     if value is None:
         return ABSENT
     if value == 0.0:
         return "0"
+    if not _smallest_plain <= abs(value) < _largest_plain:
+        return f"{value:.{digits - 1}e}"
     return format_value(value, max(digits - 1 - math.floor(math.log10(abs(value))), 0))
 
 

@@ -115,6 +115,26 @@ TEST_P(CenterMethods, UnequalLengthsAreRefused) {
 INSTANTIATE_TEST_SUITE_P(Identification, CenterMethods, testing::Values(position, velocity, velocity_means),
                          [](const auto& instance) { return instance.param.name; });
 
+// The circle's radius is first seen as the error that percussion makes; |v|/r is then far from the joint's rate.
+TEST(CenterOfRotation, APercussionCorrectionThatGrowsIsToldInsteadOfItsLever) {
+  Random random(6);
+  JointRun test = random_test(random);
+  test.joint.percussion_distance = 0.0182;
+  test.joint.lever = test.joint.lever.normalized() * 0.015;
+  const OneJointMotion sweep = support::still_poses(16, -1.0, 3.0);
+  test.gravity = fit_gravity_model(sweep.angle, support::readings(test.joint, sweep));
+  test.readings = support::readings(test.joint, test.motion);
+  const CenterOptions options{.percussion_distance = 0.0182};
+  try {
+    const auto found = center_by_position(test.motion.angle, test.readings, rate, test.joint.axis, test.gravity, options);
+    FAIL() << "lever of " << found.lever_sensor.norm() << " m after " << found.iterations << " iterations";
+  } catch (const NotIdentifiable& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("grows from step to step"));
+  }
+  const auto by_velocity = center_by_velocity(test.motion.angle, test.readings, rate, test.joint.axis, test.gravity, options);
+  EXPECT_THAT(by_velocity.lever_sensor, support::EntriesNear(test.joint.lever, 2e-4));
+}
+
 TEST(CenterOfRotation, SingleIntegrationToleratesALeftOverBiasBetterThanDouble) {
   Random random(5);
   const JointRun test = random_test(random);

@@ -1,4 +1,4 @@
-"""A campaign of a small arm, some milliseconds a trial."""
+"""A campaign of a small arm, some milliseconds a trial, and a cluster of this machine."""
 
 import pytest
 from campaign_support import write_campaign
@@ -31,3 +31,24 @@ def finished(tmp_path_factory):
     out = root / "out"
     assert main(["campaign", str(write_campaign(root)), "--out", str(out), "--workers", "1"]) == 0
     return out
+
+
+@pytest.fixture(scope="module")
+def scheduler(tmp_path_factory):
+    """Address of a cluster of two workers; it gives a task up that has cost two, and soon sees that one is gone."""
+    pytest.importorskip("distributed")
+    import dask
+    import distributed
+
+    soon = {"distributed.scheduler.allowed-failures": 1, "distributed.comm.timeouts.connect": "2s"}
+    with (
+        dask.config.set(soon),
+        distributed.LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=":0",
+            local_directory=str(tmp_path_factory.mktemp("dask")),
+        ) as running,
+    ):
+        yield running.scheduler_address

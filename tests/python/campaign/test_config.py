@@ -92,6 +92,9 @@ def test_what_is_set_reaches_the_simulation(change, config):
     ("old", "new", "words"),
     [
         ("trials: 6", "trials: none", ["line 6", "trials", "'none'", "whole number"]),
+        ("trials: 6", "trials: 1e3", ["line 6", "trials", "'1e3'", "write 1000"]),
+        ("trials: 6", "trials: 20.0", ["trials", "is 20.0", "write 20"]),
+        ("trials: 6", "trials: 6\ntrials: 7", ["line 7: trials: was given on line 6 already"]),
         ("trials: 6", "trails: 6", ["trails", "unknown key", "trials"]),
         ("seed: 3\n", "", ["seed", "missing"]),
         ("seed: 3", "seed: 18446744073709551616", ["seed", "2^64"]),

@@ -1,6 +1,7 @@
 """A fleet of logs: each calibrated as the command does, bad ones a row, goes on where it was stopped."""
 
 import contextlib
+import copy
 import io
 import json
 import os
@@ -9,12 +10,21 @@ import signal
 import subprocess
 import sys
 import time
+from importlib import resources
 from pathlib import Path
 from typing import NamedTuple
 
+import jsonschema
 import pyarrow.parquet as pq
 import pytest
-from campaign_support import EXAMPLE, PLAN
+from campaign_support import (
+    EXAMPLE,
+    PLAN,
+    calibrate_on_worker_or_die,
+    calibrate_or_die,
+    contents,
+    files_no_larger_than,
+)
 
 import circlepoint as cp
 from circlepoint.campaign.fleet_config import load_fleet
@@ -92,6 +102,89 @@ def test_every_log_is_a_row_and_a_bad_one_does_not_stop_the_rest(finished):
     assert len(joints) == 9
     assert joints[6][2]
     assert not (finished.out / "results" / "d").exists()
+
+
+def test_the_summary_follows_its_schema(finished):
+    text = resources.files("circlepoint").joinpath("schema/fleet-summary-1.json").read_text(encoding="utf-8")
+    schema = json.loads(text)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    summary = json.loads((finished.out / "summary.json").read_text())
+    assert [row["outcome"] for row in summary["logs"]] == ["complete", "complete", "incomplete", "failed"]
+    jsonschema.validate(summary, schema)
+    for row, field, wrong in ((0, "error", "none"), (0, "samples", None), (2, "missing", []), (3, "error", None)):
+        other = copy.deepcopy(summary)
+        other["logs"][row][field] = wrong
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate(other, schema)
+    described = schema["properties"]["logs"]["items"]["properties"]
+    assert list(described) == pq.read_schema(finished.out / "fleet.parquet").names
+
+
+def test_a_full_disk_ends_the_run_and_is_no_fault_of_the_logs(fleet, finished, tmp_path, capsys):
+    out = tmp_path / "out"
+    shutil.rmtree(fleet.parent / "b")
+    shutil.rmtree(fleet.parent / "c")
+    with files_no_larger_than(8192):
+        assert run(fleet, out, "--workers", "1") == 2
+    message = capsys.readouterr().err
+    assert [word for word in (str(out), "File too large", "run it again") if word not in message] == []
+    assert not list(out.rglob("*.parquet"))
+    assert sorted(path.name for path in out.iterdir()) == [".lock", "campaign.json"]
+    assert run(fleet, out, "--workers", "1") == 1
+    assert [row["outcome"] for row in rows(out).values()] == ["complete", "failed"]
+    names = sorted(path.name for path in (out / "results" / "a").iterdir())
+    assert names == sorted(path.name for path in (finished.out / "results" / "a").iterdir())
+    assert not (out / ".scratch").exists()
+
+
+def test_an_interrupted_fleet_leaves_no_process_no_traceback_and_no_scratch(fleet, tmp_path):
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "circlepoint", "campaign", str(fleet), "--out", str(out), "--workers", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 60.0
+    while not (out / ".scratch").exists():
+        assert process.poll() is None
+        assert time.monotonic() < deadline
+        time.sleep(0.002)
+    time.sleep(0.3)  # into the start of the workers
+    os.killpg(process.pid, signal.SIGINT)
+    printed, _ = process.communicate(timeout=60.0)  # ends when no process has its end of the pipe any more
+    assert process.returncode == 130
+    assert printed == "circlepoint: interrupted; what is finished is kept, and the same command goes on with the rest\n"
+    assert not (out / ".scratch").exists()
+
+
+def test_a_log_that_kills_its_process_fails_alone_and_is_calibrated_again(fleet, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    shutil.rmtree(fleet.parent / "b")
+    with monkeypatch.context() as patched:
+        patched.setattr("circlepoint.campaign.fleet.calibrate_log", calibrate_or_die)
+        assert run(fleet, out, "--workers", "2") == 1
+    killed = rows(out)
+    assert [killed[name]["outcome"] for name in "acd"] == ["complete", "incomplete", "failed"]
+    assert "its process was killed" in killed["d"]["error"]
+    kept = (out / "rows" / "a.json").stat().st_mtime_ns
+    assert run(fleet, out) == 1
+    assert "its process was killed" not in rows(out)["d"]["error"]
+    assert (out / "rows" / "a.json").stat().st_mtime_ns == kept
+
+
+def test_a_log_that_kills_its_workers_fails_alone_on_a_cluster(finished, recorded, tmp_path, scheduler, monkeypatch):
+    out = tmp_path / "out"
+    with monkeypatch.context() as patched:
+        patched.setattr("circlepoint.campaign.fleet._on_worker", calibrate_on_worker_or_die)
+        assert run(recorded / "fleet.yaml", out, "--scheduler", scheduler) == 1
+    killed = rows(out)
+    assert [killed[name]["outcome"] for name in "abcd"] == ["complete", "complete", "incomplete", "failed"]
+    assert "every worker of the cluster that was given it was killed" in killed["d"]["error"]
+    # Run again where it is not killed, it is as if there had been no cluster.
+    assert run(recorded / "fleet.yaml", out, "--scheduler", scheduler) == 1
+    assert contents(out) == contents(finished.out)
 
 
 def test_a_result_is_that_of_the_command_calibrate(finished, recorded, tmp_path):

@@ -12,7 +12,7 @@ import time
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from campaign_support import EXAMPLE, contents, table_of
+from campaign_support import EXAMPLE, contents, files_no_larger_than, table_of
 
 import circlepoint as cp
 from circlepoint.campaign.config import load_campaign
@@ -104,6 +104,30 @@ def test_a_table_that_a_failing_disk_damaged_is_made_again(config, whole):
     path.write_bytes(path.read_bytes()[:100])
     run_campaign(load_campaign(config), whole)
     assert contents(whole) == before
+
+
+def test_a_full_disk_is_told_with_the_file_and_costs_the_batch_in_hand(config, finished, tmp_path, capsys):
+    out = tmp_path / "out"
+    with files_no_larger_than(8192):
+        assert run(config, out) == 2
+    message = capsys.readouterr().err
+    words = (str(out / "trials" / "cell-0000" / "batch-000000.parquet"), "File too large", "run it again")
+    assert [word for word in words if word not in message] == []
+    assert not list(out.rglob("*.parquet"))
+    assert run(config, out) == 0
+    assert contents(out) == contents(finished)
+
+
+def test_a_table_whose_inside_is_damaged_is_named(config, whole, capsys):
+    path = whole / "trials" / "cell-0002" / "batch-000001.parquet"
+    content = path.read_bytes()
+    path.write_bytes(content[:4] + bytes(1000) + content[1004:])
+    assert run(config, whole) == 2
+    message = capsys.readouterr().err
+    assert [word for word in (str(path), "take it away", "run the same command again") if word not in message] == []
+    path.unlink()
+    assert run(config, whole) == 0
+    assert path.read_bytes() == content
 
 
 @pytest.mark.parametrize(

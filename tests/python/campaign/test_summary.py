@@ -1,5 +1,6 @@
 """A campaign's statistics against SciPy's, its summary against the schema."""
 
+import itertools
 import json
 from importlib import resources
 
@@ -7,8 +8,10 @@ import jsonschema
 import numpy as np
 import pytest
 from campaign_support import table_of
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from scipy import stats
 
+from circlepoint.campaign.figure import draw_summary
 from circlepoint.campaign.presentation import format_summary
 from circlepoint.campaign.statistics import ErrorStatistics, wilson
 from circlepoint.cli import main
@@ -132,3 +135,57 @@ def test_trials_that_fail_are_counted_with_their_reason(change, config, tmp_path
     printed = capsys.readouterr().out
     assert printed.startswith(format_summary(found))
     assert "joints without a line in 6 of 6 trials" in printed
+
+
+def test_reasons_that_differ_in_figures_alone_are_one(change, config, tmp_path):
+    change("up: [0.4, -0.3, 0.8]", "up: [0, 0, 1]")
+    change("[joint, velocity]", "velocity")
+    assert main(["campaign", str(config), "--out", str(tmp_path / "out")]) == 0
+    told = table_of(tmp_path / "out", 0)["reason"].to_pylist()
+    assert len(set(told)) == 6
+    cell = json.loads((tmp_path / "out" / "summary.json").read_text())["cells"][0]
+    assert cell["reasons"] == [{"reason": told[0], "trials": 6}]
+
+
+def scaled(summary, factors):
+    """The summary with the lines' and the end-point's errors of each cell so many times as large."""
+    other = json.loads(json.dumps(summary))
+    for cell, factor in zip(other["cells"], factors, strict=True):
+        for entry in (cell["end_point"], cell["groups"]["direction"], cell["groups"]["point"]):
+            entry["predicted"] *= factor
+            entry["rmse"] = {end: value and factor * value for end, value in entry["rmse"].items()}
+    return other
+
+
+def test_errors_of_many_sizes_are_drawn_on_logarithmic_axes_whose_labels_stand_apart(summary):
+    plain, wide = draw_summary(summary), draw_summary(scaled(summary, [1.0, 1e2, 1e5, 1e9]))
+    assert [panel.get_xscale() for panel in wide.axes[:3]] == ["log"] * 3
+    assert plain.axes[1].get_xscale() == "linear"
+    for figure in (plain, wide):
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        for panel in figure.axes:
+            texts = [label for label in panel.get_xticklabels(which="both") if label.get_text() and label.get_visible()]
+            low, high = panel.get_xlim()
+            boxes = [label.get_window_extent() for label in texts if low <= label.get_position()[0] <= high]
+            assert len(boxes) >= 2
+            assert all(one.x1 < other.x0 for one, other in itertools.pairwise(sorted(boxes, key=lambda box: box.x0)))
+
+
+def test_cells_are_drawn_under_their_whole_names(summary):
+    name = "a small arm with a long name, on a slope, standing where it was delivered"
+    for index, cell in enumerate(summary["cells"]):
+        cell["arm"] = f"{name} {index}"
+    figure = draw_summary(summary)
+    FigureCanvasAgg(figure).draw()
+    labels = figure.axes[0].get_yticklabels()
+    assert [label.get_text() for label in labels] == [
+        f"{cell['arm']}, {cell['noise']}, {cell['method']}" for cell in summary["cells"]
+    ]
+    assert min(label.get_window_extent().x0 for label in labels) >= 0.0
+
+
+def test_figures_beyond_reason_stay_short_in_the_table(summary):
+    printed = format_summary(scaled(summary, [1.0, 1.0, 1.0, 1e18]))
+    assert "e+" in printed
+    assert max(map(len, printed.splitlines())) < 220

@@ -13,7 +13,9 @@
 // d (|w|^2 - w_k^2). Correct, re-estimate, iterate to convergence; the rate is |v|/r in the position method, the encoder's
 // in the velocity method.
 //
-// Fails (NotIdentifiable) when the joint does not move enough for a circle or a velocity.
+// Fails (NotIdentifiable) when the joint does not move enough for a circle or a velocity, and when the position method's
+// correction grows from step to step: the speed |v|/r of an axis that passes near the sensor is mostly the error being
+// corrected.
 
 #include <Eigen/Core>
 
