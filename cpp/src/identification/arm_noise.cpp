@@ -39,7 +39,7 @@ AutoregressiveModel with_fewest_coefficients(const AutoregressiveModel& model, I
 AutoregressiveModel filtered_white(const ArmRows& rows) {
   constexpr Index order = 6;
   const auto step = static_cast<Index>(std::lround(rows.sample_rate / rows.rate));
-  const Eigen::VectorXd covariance = smoothed_autocovariance(rows.cutoff, rows.sample_rate, step, order + 1).col(0);
+  const Eigen::VectorXd covariance = smoothed_autocovariance(rows.cutoff, rows.sample_rate, step, order + 1);
   return autoregressive_of(covariance / covariance[0]);
 }
 

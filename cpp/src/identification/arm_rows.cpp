@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "arm_smooth.hpp"
+#include "arm_encoder_noise.hpp"
 #include "arm_yield.hpp"
 
 namespace circlepoint {
@@ -75,8 +76,10 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     if (errors) {
       for (Index joint = 0; joint < recording.joints(); ++joint) {
         if (crosses_counts(span, moving, joint, resolution)) {
-          const double cutoff = span.joints[smoothing[static_cast<std::size_t>(joint)]].cutoff;
-          stretch.errors.push_back({joint, resolution[joint] * resolution[joint] / 12.0, cutoff});
+          const SmoothJoints& joints = span.joints[smoothing[static_cast<std::size_t>(joint)]];
+          const auto size = static_cast<float>(resolution[joint] * resolution[joint]);
+          stretch.errors.push_back({joint, size * count_error_covariance(joints.position.col(joint) / resolution[joint], index,
+                                                                         joints.cutoff, recording.sample_rate)});
         }
       }
     }
@@ -220,7 +223,13 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
   piece.noise = stretch.noise;
   piece.offsets = stretch.offsets;
   piece.follows = stretch.follows;
-  piece.errors = stretch.errors;
+  std::vector<Index> of_motion;  // rows for position, velocity, acceleration
+  for (Index order = 0; order < 3; ++order) {
+    std::transform(rows.begin(), rows.end(), std::back_inserter(of_motion), [&](Index row) { return order * stretch.rows() + row; });
+  }
+  for (const PositionError& error : stretch.errors) {
+    piece.errors.push_back({error.joint, error.covariance(of_motion, of_motion)});
+  }
   piece.sample = stretch.sample(rows);
   piece.time = stretch.time(rows);
   piece.position = stretch.position(rows, Eigen::all);
@@ -268,6 +277,31 @@ Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance) {
   return before;
 }
 
+void set_prior(ArmRows& rows, Index first, const Eigen::MatrixXd& covariance) {
+  rows.offset_covariance.block(first, first, covariance.rows(), covariance.cols()) = covariance;
+  rows.offset_information.block(first, first, covariance.rows(), covariance.cols()) = covariance.inverse();
+}
+
+void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift) {
+  const auto amount = [&](const OffsetTerm& term) {
+    return term.parameter >= first && term.parameter < first + shift.size() ? shift[term.parameter - first] : 0.0;
+  };
+  for (DwellRow& dwell : rows.dwells) {
+    for (std::size_t k = 0; k < dwell.offsets.size(); ++k) {
+      dwell.position[dwell.offsets[k].joint] += amount(dwell.offsets[k]) * dwell.shape[static_cast<Index>(k)];
+    }
+  }
+  for (MovingStretch& stretch : rows.stretches) {
+    for (std::size_t k = 0; k < stretch.offsets.size(); ++k) {
+      const Index joint = stretch.offsets[k].joint;
+      const double by = amount(stretch.offsets[k]);
+      stretch.position.col(joint) += by * stretch.shapes.position.col(static_cast<Index>(k));
+      stretch.velocity.col(joint) += by * stretch.shapes.velocity.col(static_cast<Index>(k));
+      stretch.acceleration.col(joint) += by * stretch.shapes.acceleration.col(static_cast<Index>(k));
+    }
+  }
+}
+
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
   constexpr double widest = 10.0;
   constexpr double narrowest = 4.0;
@@ -293,7 +327,7 @@ namespace {
 
 // With `errors`, coarse encoders' errors of moving joints are carried to the readings.
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
-                  bool gyroscope, bool errors) {
+                  bool gyroscope, bool errors, const KnownArm* arm) {
   ArmRows rows;
   rows.cutoff = cutoff;
   rows.channels = gyroscope ? 6 : 3;
@@ -328,7 +362,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
     add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution, errors);
   }
   if (coarse) {
-    follow_yields(rows, recording, segmentation, spans, resolution);
+    follow_yields(rows, recording, segmentation, spans, resolution, arm);
   }
   share_offsets(rows, resolution);
   return rows;
@@ -337,12 +371,12 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
 }  // namespace
 
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
-                  bool gyroscope) {
+                  bool gyroscope, const KnownArm* arm) {
   const bool coarse = are_coarse(resolution);
-  ArmRows rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, coarse && !gyroscope);
+  ArmRows rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, coarse && !gyroscope, arm);
   // Where joints at rest yield, what the model of their yield leaves is larger and looks alike; one fitted spectrum covers both.
-  if (coarse && rows.yields) {
-    rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, false);
+  if (coarse && rows.yields && arm == nullptr) {
+    rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, false, arm);
   }
   return rows;
 }

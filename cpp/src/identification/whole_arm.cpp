@@ -11,6 +11,7 @@
 #include "arm_result.hpp"
 #include "arm_solve.hpp"
 #include "arm_start.hpp"
+#include "arm_yield.hpp"
 #include "circlepoint/core/error.hpp"
 #include "test_samples.hpp"
 
@@ -18,6 +19,7 @@ namespace circlepoint {
 namespace {
 
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
+constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
@@ -138,6 +140,14 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   NormalEquations all;
   std::vector<PartEquations> parts;
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+  if (problem.rows.yields) {
+    // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
+    state = solve(problem, state, 50, last_change).state;
+    const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
+    problem.rows = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
+    name_kinds(problem.rows, joints);
+    problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+  }
   ArmResiduals now;
   InflationSearch search;
   for (int pass = 0; pass < options.max_passes; ++pass) {
@@ -159,6 +169,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     // What follows changes rows and weights, which only another pass takes in.
     if (result.converged || pass + 1 == options.max_passes) {
       break;
+    }
+    if (pass < most_ties) {
+      retie(problem.rows, problem.offsets);
     }
     // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
     const double inflation = pass > 0 ? search.next(problem.noise.inflation, score_ratio(problem, parts, covariance)) : 1.0;
