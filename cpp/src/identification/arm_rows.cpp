@@ -29,6 +29,26 @@ Index single_motion(const Segmentation& segmentation, const IndexRange& range) {
   return -1;
 }
 
+// The motions of one joint alone that lie in the range, each with what is beside it: up to halfway to the next, where no rest was
+// seen between, or to the range's ends.
+std::vector<MovingAlone> moving_alone(const Segmentation& segmentation, const IndexRange& range, double rate) {
+  constexpr double longest_rest = 1.0;  // s; beyond, other joints may move between two motions
+  std::vector<MovingAlone> found;
+  for (const SingleJointMotion& motion : segmentation.motions) {
+    const Index middle = (motion.samples.begin + motion.samples.end) / 2;
+    if (range.begin <= middle && middle < range.end) {
+      const auto beside = static_cast<Index>(0.5 * longest_rest * rate);
+      found.push_back({{std::max(range.begin, motion.samples.begin - beside), std::min(range.end, motion.samples.end + beside)}, motion.joint});
+    }
+  }
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    if (found[i].samples.begin < found[i - 1].samples.end) {
+      found[i].samples.begin = found[i - 1].samples.end = (found[i].samples.begin + found[i - 1].samples.end) / 2;
+    }
+  }
+  return found;
+}
+
 Index test_of(const Segmentation& segmentation, Index motion) {
   for (std::size_t i = 0; i < segmentation.tests.size(); ++i) {
     const std::vector<Index>& motions = segmentation.tests[i].motions;
@@ -97,8 +117,7 @@ void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation
   if (moving.size() <= 0) {
     return;
   }
-  const Index motion = single_motion(segmentation, moving);
-  const Index alone = errors && motion >= 0 ? segmentation.motions[static_cast<std::size_t>(motion)].joint : -1;
+  const std::vector<MovingAlone> alone = errors ? moving_alone(segmentation, moving, recording.sample_rate) : std::vector<MovingAlone>{};
   for (const IndexRange& part : without_steps(span, moving, alone, resolution, recording.sample_rate)) {
     add_part(rows, recording, segmentation, span, part, step, longest, resolution, errors);
   }

@@ -135,7 +135,7 @@ Mask runs(const Mask& mask, Index shortest) {
 
 }  // namespace
 
-std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, Index alone,
+std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const std::vector<MovingAlone>& alone,
                                       const Eigen::VectorXd& resolution, double rate) {
   constexpr double beyond = 3.0;      // eq. (11) inside reaches 1, a minimum-jerk move 2.3, a step of acceleration 5 and more
   constexpr double too_many = 0.2;    // share of a range that is then a motion of its own kind, not steps
@@ -156,11 +156,16 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
   if (static_cast<double>(step.count()) <= too_many * static_cast<double>(moving.size())) {
     left_out = widened(step, static_cast<Index>(std::lround((coarse ? 0.9 : 0.5) * rate / joints.cutoff)));
   }
-  if (coarse && alone >= 0) {
+  if (coarse) {
     // Where a joint dwells on each count for longer than a few of what the filter averages over, its error is one number, not noise.
     const auto margin = static_cast<Index>(std::lround(0.3 * rate / joints.cutoff));
-    const double slow = 5.0 * joints.cutoff * resolution[alone];
-    const Mask creeping = joints.derivative(1, alone, begin, moving.size()).array().abs() < slow;
+    Mask creeping = Mask::Constant(moving.size(), false);
+    for (const MovingAlone& motion : alone) {
+      const double slow = 5.0 * joints.cutoff * resolution[motion.joint];
+      const Index size = motion.samples.size();
+      creeping.segment(motion.samples.begin - moving.begin, size) =
+          joints.derivative(1, motion.joint, motion.samples.begin - span.samples.begin, size).array().abs() < slow;
+    }
     left_out = left_out || widened(runs(creeping, margin), margin);
   }
   std::vector<IndexRange> parts;

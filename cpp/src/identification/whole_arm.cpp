@@ -134,7 +134,10 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   lay_out(problem, state, moves, options);
   hold_fixed(state, problem.layout, options.sensor);
 
-  problem.noise = white_noise(problem.rows, 0.1, 0.02, 0.01);
+  constexpr double moving_guess = 0.1;  // m/s^2
+  constexpr double dwell_guess = 0.02;  // m/s^2
+  constexpr double rate_guess = 0.01;   // rad/s
+  problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
   Eigen::MatrixXd information;  // data and priors
   Eigen::MatrixXd covariance;
   NormalEquations all;
@@ -146,6 +149,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
     problem.rows = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
     name_kinds(problem.rows, joints);
+    problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
     problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   }
   ArmResiduals now;
@@ -175,7 +179,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     }
     // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
     const double inflation = pass > 0 ? search.next(problem.noise.inflation, score_ratio(problem, parts, covariance)) : 1.0;
-    if (pass > 0 && pass < 4) {
+    // A knock shows once the resting joints' loads are known.
+    const int first_cut = problem.rows.ties.empty() ? 1 : most_ties;
+    if (pass >= first_cut && pass < first_cut + 3) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
       if (cut > 0) {
