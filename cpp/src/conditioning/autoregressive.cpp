@@ -8,7 +8,7 @@
 
 namespace circlepoint {
 
-AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segments, Index order) {
+AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segments, Index order, const Eigen::VectorXd& more) {
   require(order >= 0, "order is " + std::to_string(order) + "; give 0 (white) or more");
   Index count = 0;
   Index longest = 0;
@@ -25,11 +25,17 @@ AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segme
       covariance[lag] += segment.head(segment.size() - lag).dot(segment.tail(segment.size() - lag));
     }
   }
+  if (more.size() > 0) {
+    covariance += more.head(order + 1);
+  }
   require(count > 0 && covariance[0] > 0.0 && std::isfinite(covariance[0]),
           "the segments have " + std::to_string(count) + " samples and power " + std::to_string(covariance[0]) +
               "; an autoregressive model needs finite, non-zero ones");
-  covariance = covariance.cwiseQuotient(pairs.cwiseMax(1.0));
+  return autoregressive_of(covariance.cwiseQuotient(pairs.cwiseMax(1.0)));
+}
 
+AutoregressiveModel autoregressive_of(const Eigen::VectorXd& covariance) {
+  const Index order = covariance.size() - 1;
   AutoregressiveModel model;
   model.coefficients = Eigen::MatrixXd::Zero(order + 1, order);
   model.innovation_std = Eigen::VectorXd::Zero(order + 1);
@@ -48,6 +54,38 @@ AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segme
     model.coefficients(k, k - 1) = reflection;
     variance = next;
     model.innovation_std[k] = std::sqrt(variance);
+  }
+  return model;
+}
+
+AutoregressiveModel in_series(const AutoregressiveModel& first, const AutoregressiveModel& second) {
+  const Index p = first.order();
+  const Index q = second.order();
+  // Prediction-error filters multiply: 1, -a_1, ... -a_p.
+  const auto filter = [](const AutoregressiveModel& model, Index order) {
+    Eigen::VectorXd taps(order + 1);
+    taps[0] = 1.0;
+    taps.tail(order) = -model.coefficients.row(order).head(order);
+    return taps;
+  };
+  const Eigen::VectorXd one = filter(first, p);
+  const Eigen::VectorXd other = filter(second, q);
+  Eigen::VectorXd both = Eigen::VectorXd::Zero(p + q + 1);
+  for (Index k = 0; k <= q; ++k) {
+    both.segment(k, p + 1) += other[k] * one;
+  }
+  AutoregressiveModel model;
+  model.coefficients = Eigen::MatrixXd::Zero(p + q + 1, p + q);
+  model.innovation_std.resize(p + q + 1);
+  model.coefficients.row(p + q) = -both.tail(p + q);
+  model.innovation_std[p + q] = first.innovation_std[p] * second.innovation_std[q];
+  // Lower orders by the recursion run backwards.
+  for (Index k = p + q; k > 0; --k) {
+    const Eigen::VectorXd here = model.coefficients.row(k).head(k);
+    const double reflection = here[k - 1];
+    const double left = 1.0 - reflection * reflection;
+    model.coefficients.row(k - 1).head(k - 1) = (here.head(k - 1) + reflection * here.head(k - 1).reverse()) / left;
+    model.innovation_std[k - 1] = model.innovation_std[k] / std::sqrt(left);
   }
   return model;
 }

@@ -25,7 +25,7 @@ JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::
     const Index size = mine.within_functions.cols();
     // Within the counts: in all as much as says that the deflection is known to within_std. A joint that goes to and fro over one
     // boundary shows a square wave, whose error of a count's scatter lies in one direction: so much is left open in each then.
-    const double directions = mine.change.size() > 0 ? 1.0 : static_cast<double>(size);
+    const double directions = mine.change.size() > 0 || !mine.small ? 1.0 : static_cast<double>(size);
     const double weight = directions / (mine.within_std * mine.within_std * static_cast<double>(mine.within.size()));
     information.block(fit.first[k], fit.first[k], size, size) += weight * mine.within_functions.transpose() * mine.within_functions;
     gradient.segment(fit.first[k], size) += weight * mine.within_functions.transpose() * mine.within;

@@ -26,6 +26,7 @@ struct CountRows {
   Eigen::VectorXd within;
   double change_std = 0.1;           // counts
   double within_std = 1.0 / std::sqrt(12.0);  // counts rms
+  bool small = true;                 // where no count changes, all functions together are within it; else each is
 };
 
 // h and c of one joint in all tests of a group in which it rests, in counts.

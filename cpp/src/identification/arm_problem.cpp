@@ -7,10 +7,9 @@
 #include <thread>
 
 namespace circlepoint {
-namespace {
 
-void set_instant(const MovingStretch& stretch, Index row, double middle, const ArmProblem& problem, JointInstant& instant) {
-  instant.time_from_middle = stretch.time[row] - middle;
+void set_instant(const MovingStretch& stretch, Index row, const ArmProblem& problem, JointInstant& instant) {
+  instant.time_from_middle = stretch.time[row] - problem.rows.middle;
   instant.position = stretch.position.row(row);
   instant.velocity = stretch.velocity.row(row);
   instant.acceleration = stretch.acceleration.row(row);
@@ -24,6 +23,8 @@ void set_instant(const MovingStretch& stretch, Index row, double middle, const A
     instant.acceleration[term.joint] += offset * stretch.shapes.acceleration(row, column);
   }
 }
+
+namespace {
 
 void set_instant(const DwellRow& dwell, double middle, const ArmProblem& problem, JointInstant& instant) {
   instant.time_from_middle = dwell.time - middle;
@@ -58,7 +59,7 @@ Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predicto
   JointInstant instant;
   Eigen::MatrixXd by_offset(3, terms);
   for (Index i = 0; i < rows; ++i) {
-    set_instant(stretch, i, problem.rows.middle, problem, instant);
+    set_instant(stretch, i, problem, instant);
     const Eigen::Vector3d reading = predictor.reading(instant, jacobian);
     if (terms > 0) {
       fill_by_offset(predictor.by_joint(), stretch, i, by_offset);
@@ -226,7 +227,7 @@ std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmSt
     if (i < stretches) {
       const MovingStretch& stretch = problem.rows.stretches[i];
       Eigen::MatrixXd system = stretch_system(problem, predictor, stretch);
-      whiten_stretch(problem.noise.kinds[static_cast<std::size_t>(stretch.noise)], stretch.rows(), system);
+      whiten_stretch(problem.noise, problem.rows, i, system);
       finish(i, system, stretch.offsets);
       return;
     }
@@ -293,14 +294,14 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
     JointInstant instant;
     result.moving[i].resize(stretch.rows(), channels);
     for (Index row = 0; row < stretch.rows(); ++row) {
-      set_instant(stretch, row, problem.rows.middle, problem, instant);
+      set_instant(stretch, row, problem, instant);
       result.moving[i].row(row).head<3>() = predictor.reading(instant) - stretch.reading.row(row).head<3>().transpose();
       if (channels == 6) {
         result.moving[i].row(row).tail<3>() = predictor.angular_rate() - stretch.reading.row(row).tail<3>().transpose();
       }
     }
     Eigen::MatrixXd column = result.moving[i].reshaped(result.moving[i].size(), 1);
-    whiten_stretch(problem.noise.kinds[static_cast<std::size_t>(stretch.noise)], stretch.rows(), column);
+    whiten_stretch(problem.noise, problem.rows, i, column);
     result.whitened[i] = column.reshaped(stretch.rows(), channels);
   });
   ArmPredictor predictor(state, problem.layout);

@@ -49,6 +49,9 @@ struct ArmProblem {
   unsigned threads = 1;
 };
 
+// The joints at a stretch's row, offsets included.
+void set_instant(const MovingStretch& stretch, Index row, const ArmProblem& problem, JointInstant& instant);
+
 struct ArmResiduals {
   StretchResiduals moving;        // (M, channels) each, model - reading
   StretchResiduals whitened;      // the same whitened

@@ -75,7 +75,8 @@ ArmProblem without_rows(const ArmProblem& problem) {
   empty.rows.channels = problem.rows.channels;
   empty.rows.middle = problem.rows.middle;
   empty.layout = problem.layout;
-  empty.noise = problem.noise;
+  empty.noise.kinds = problem.noise.kinds;
+  empty.noise.dwell_excess = problem.noise.dwell_excess;
   empty.offsets = problem.offsets;
   return empty;
 }
@@ -185,6 +186,9 @@ std::vector<StretchResidual> hold_out(const ArmProblem& problem, const ArmState&
     StretchResidual& entry = entries[static_cast<std::size_t>(entry_of[slot])];
     ArmProblem alone = without_rows(problem);
     alone.rows.stretches = {stretch};
+    if (i < problem.noise.encoder.size()) {
+      alone.noise.encoder = {problem.noise.encoder[i]};
+    }
     const std::optional<ArmState> rest = without(problem, state, parts[i], information);
     entry.begin = std::min(entry.begin, stretch.time[0]);
     entry.end = std::max(entry.end, stretch.time[stretch.rows() - 1]);

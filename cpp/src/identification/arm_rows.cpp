@@ -5,13 +5,16 @@
 #include <numbers>
 
 #include "arm_smooth.hpp"
+#include "arm_encoder_noise.hpp"
 #include "arm_yield.hpp"
 
 namespace circlepoint {
+
 namespace {
 
 constexpr Index shortest_stretch = 5;   // rows
 constexpr Index longest_stretch = 500;
+constexpr Index longest_coarse = 120;    // their covariances are dense
 constexpr Index fewest_stretches = 8;    // where there is enough: each is once held out
 
 // The motion of one joint alone through the middle of the range, or -1.
@@ -26,6 +29,26 @@ Index single_motion(const Segmentation& segmentation, const IndexRange& range) {
   return -1;
 }
 
+// The motions of one joint alone that lie in the range, each with what is beside it: up to halfway to the next, where no rest was
+// seen between, or to the range's ends.
+std::vector<MovingAlone> moving_alone(const Segmentation& segmentation, const IndexRange& range, double rate) {
+  constexpr double longest_rest = 1.0;  // s; beyond, other joints may move between two motions
+  std::vector<MovingAlone> found;
+  for (const SingleJointMotion& motion : segmentation.motions) {
+    const Index middle = (motion.samples.begin + motion.samples.end) / 2;
+    if (range.begin <= middle && middle < range.end) {
+      const auto beside = static_cast<Index>(0.5 * longest_rest * rate);
+      found.push_back({{std::max(range.begin, motion.samples.begin - beside), std::min(range.end, motion.samples.end + beside)}, motion.joint});
+    }
+  }
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    if (found[i].samples.begin < found[i - 1].samples.end) {
+      found[i].samples.begin = found[i - 1].samples.end = (found[i].samples.begin + found[i - 1].samples.end) / 2;
+    }
+  }
+  return found;
+}
+
 Index test_of(const Segmentation& segmentation, Index motion) {
   for (std::size_t i = 0; i < segmentation.tests.size(); ++i) {
     const std::vector<Index>& motions = segmentation.tests[i].motions;
@@ -37,7 +60,7 @@ Index test_of(const Segmentation& segmentation, Index motion) {
 }
 
 void add_part(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-              const IndexRange& moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
+              const IndexRange& moving, Index step, Index longest, const Eigen::VectorXd& resolution, bool errors) {
   const Index available = (moving.size() + step - 1) / step;
   if (available < shortest_stretch) {
     return;
@@ -70,6 +93,16 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
       stretch.acceleration.col(joint) = joints.derivative(2, joint, index);
       stretch.jerk.col(joint) = joints.derivative(3, joint, index);
     }
+    if (errors) {
+      for (Index joint = 0; joint < recording.joints(); ++joint) {
+        if (crosses_counts(span, moving, joint, resolution)) {
+          const SmoothJoints& joints = span.joints[smoothing[static_cast<std::size_t>(joint)]];
+          const auto size = static_cast<float>(resolution[joint] * resolution[joint]);
+          stretch.errors.push_back({joint, size * count_error_covariance(joints.position.col(joint) / resolution[joint], index,
+                                                                         joints.cutoff, recording.sample_rate)});
+        }
+      }
+    }
     stretch.reading = span.reading(index, Eigen::all);
     stretch.time = recording.time(stretch.sample);
     rows.stretches.push_back(std::move(stretch));
@@ -78,14 +111,15 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
 }
 
 void add_stretches(ArmRows& rows, const Recording& recording, const Segmentation& segmentation, const SmoothSpan& span,
-                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution) {
+                   IndexRange moving, Index step, Index longest, const Eigen::VectorXd& resolution, bool errors) {
   moving.begin = std::max(moving.begin, span.usable_begin);
   moving.end = std::min(moving.end, span.usable_end);
   if (moving.size() <= 0) {
     return;
   }
-  for (const IndexRange& part : without_steps(span, moving, resolution, recording.sample_rate)) {
-    add_part(rows, recording, segmentation, span, part, step, longest, resolution);
+  const std::vector<MovingAlone> alone = errors ? moving_alone(segmentation, moving, recording.sample_rate) : std::vector<MovingAlone>{};
+  for (const IndexRange& part : without_steps(span, moving, alone, resolution, recording.sample_rate)) {
+    add_part(rows, recording, segmentation, span, part, step, longest, resolution, errors);
   }
 }
 
@@ -208,6 +242,13 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
   piece.noise = stretch.noise;
   piece.offsets = stretch.offsets;
   piece.follows = stretch.follows;
+  std::vector<Index> of_motion;  // rows for position, velocity, acceleration
+  for (Index order = 0; order < 3; ++order) {
+    std::transform(rows.begin(), rows.end(), std::back_inserter(of_motion), [&](Index row) { return order * stretch.rows() + row; });
+  }
+  for (const PositionError& error : stretch.errors) {
+    piece.errors.push_back({error.joint, error.covariance(of_motion, of_motion)});
+  }
   piece.sample = stretch.sample(rows);
   piece.time = stretch.time(rows);
   piece.position = stretch.position(rows, Eigen::all);
@@ -255,6 +296,31 @@ Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance) {
   return before;
 }
 
+void set_prior(ArmRows& rows, Index first, const Eigen::MatrixXd& covariance) {
+  rows.offset_covariance.block(first, first, covariance.rows(), covariance.cols()) = covariance;
+  rows.offset_information.block(first, first, covariance.rows(), covariance.cols()) = covariance.inverse();
+}
+
+void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift) {
+  const auto amount = [&](const OffsetTerm& term) {
+    return term.parameter >= first && term.parameter < first + shift.size() ? shift[term.parameter - first] : 0.0;
+  };
+  for (DwellRow& dwell : rows.dwells) {
+    for (std::size_t k = 0; k < dwell.offsets.size(); ++k) {
+      dwell.position[dwell.offsets[k].joint] += amount(dwell.offsets[k]) * dwell.shape[static_cast<Index>(k)];
+    }
+  }
+  for (MovingStretch& stretch : rows.stretches) {
+    for (std::size_t k = 0; k < stretch.offsets.size(); ++k) {
+      const Index joint = stretch.offsets[k].joint;
+      const double by = amount(stretch.offsets[k]);
+      stretch.position.col(joint) += by * stretch.shapes.position.col(static_cast<Index>(k));
+      stretch.velocity.col(joint) += by * stretch.shapes.velocity.col(static_cast<Index>(k));
+      stretch.acceleration.col(joint) += by * stretch.shapes.acceleration.col(static_cast<Index>(k));
+    }
+  }
+}
+
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
   constexpr double widest = 10.0;
   constexpr double narrowest = 4.0;
@@ -276,20 +342,25 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   return cutoff;
 }
 
+namespace {
+
+// With `errors`, coarse encoders' errors of moving joints are carried to the readings.
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
-                  bool gyroscope) {
+                  bool gyroscope, bool errors, const KnownArm* arm) {
   ArmRows rows;
   rows.cutoff = cutoff;
   rows.channels = gyroscope ? 6 : 3;
   rows.middle = 0.5 * (recording.time[0] + recording.time[recording.samples() - 1]);
   const auto step = std::max<Index>(1, static_cast<Index>(std::floor(recording.sample_rate / (2.0 * cutoff))));
   rows.rate = recording.sample_rate / static_cast<double>(step);
-  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 8 * shortest_stretch, longest_stretch);
+  rows.sample_rate = recording.sample_rate;
+  const bool coarse = are_coarse(resolution);
+  const Index longest = std::clamp<Index>(recording.samples() / step / fewest_stretches, 8 * shortest_stretch,
+                                          errors ? longest_coarse : longest_stretch);
   for (const StaticDwell& dwell : segmentation.dwells) {
     rows.dwells.push_back(dwell_row(recording, dwell, resolution, gyroscope));
     rows.samples += dwell.samples.size();
   }
-  const bool coarse = are_coarse(resolution);
   std::vector<SmoothSpan> spans;
   for (const IndexRange& span : recording.spans) {
     if (span.size() < std::max<Index>(32, shortest_stretch * step)) {
@@ -303,15 +374,29 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin - apart}, step, longest, resolution);
+      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin - apart}, step, longest, resolution,
+                    errors);
       begin = dwell.samples.end + apart;
     }
-    add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution);
+    add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution, errors);
   }
   if (coarse) {
-    follow_yields(rows, recording, segmentation, spans, resolution);
+    follow_yields(rows, recording, segmentation, spans, resolution, arm);
   }
   share_offsets(rows, resolution);
+  return rows;
+}
+
+}  // namespace
+
+ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
+                  bool gyroscope, const KnownArm* arm) {
+  const bool coarse = are_coarse(resolution);
+  ArmRows rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, coarse && !gyroscope, arm);
+  // Where joints at rest yield, what the model of their yield leaves is larger and looks alike; one fitted spectrum covers both.
+  if (coarse && rows.yields && arm == nullptr) {
+    rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, false, arm);
+  }
   return rows;
 }
 

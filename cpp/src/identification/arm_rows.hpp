@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "arm_tie.hpp"
 #include "circlepoint/conditioning/segmentation.hpp"
 #include "circlepoint/identification/whole_arm.hpp"
 #include "circlepoint/recording/recording.hpp"
@@ -23,6 +24,12 @@ struct OffsetShapes {
   Eigen::MatrixXd acceleration;  // (M, terms) 1/s^2
 };
 
+// What a coarse encoder adds to the smoothed motion of a joint that crosses its counts.
+struct PositionError {
+  Index joint = 0;
+  Eigen::MatrixXf covariance;  // (3 M, 3 M) of position, velocity and acceleration: rad, s
+};
+
 struct MovingStretch {
   Index joint = -1;        // the one joint that moves, or -1
   Index test = -1;         // of that joint, into Segmentation::tests, or -1
@@ -37,6 +44,7 @@ struct MovingStretch {
   std::vector<OffsetTerm> offsets;  // of the joints that rest meanwhile
   OffsetShapes shapes;
   std::vector<bool> follows;        // (n) the joint's yield is modelled (arm_yield)
+  std::vector<PositionError> errors;  // where some encoder is coarse
   [[nodiscard]] Index rows() const { return time.size(); }
 };
 
@@ -52,6 +60,17 @@ struct DwellRow {
   Index samples = 0;
 };
 
+// Resting joints' motion that is tied to loads on a known arm (arm_yield).
+struct YieldTie {
+  std::vector<RestingFit> fits;  // what the counts tell
+  ArmAtHome arm;
+  LoadPoint point;
+  Eigen::VectorXd estimate;      // of all coefficients, as the rows have them
+  Eigen::MatrixXd reduce;        // (parameters, coefficients)
+  Eigen::MatrixXd expand;        // (coefficients, parameters)
+  Index offset = 0;              // the first of the parameters, shared offsets
+};
+
 // A joint at rest stands somewhere within its encoder's count, and stays there: whatever shares that rest shares the error. Such
 // offsets are parameters with the count as their prior; a rest that no other row shares is noise of its row.
 struct ArmRows {
@@ -59,9 +78,12 @@ struct ArmRows {
   std::vector<MovingStretch> stretches;
   Eigen::MatrixXd offset_covariance;   // (K, K) prior of the shared offsets, mean zero
   Eigen::MatrixXd offset_information;  // its inverse
+  std::vector<YieldTie> ties;
   double cutoff = 0.0;      // Hz
   double rate = 0.0;        // Hz, of the thinned-out rows
+  double sample_rate = 0.0; // Hz, of the recording
   double middle = 0.0;      // s
+  bool yields = false;      // with coarse encoders: some joint at rest changes its count while another moves
   Index channels = 3;       // 6 with a gyroscope
   Index samples = 0;        // of the recording, used
 
@@ -80,11 +102,16 @@ void add_term(DwellRow& dwell, const OffsetTerm& term, double shape);
 // Adds parameters with the given prior; the first one's index.
 Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance);
 
+// Gives parameters from `first` on another prior, and the rows the part of them that is no longer unknown.
+void set_prior(ArmRows& rows, Index first, const Eigen::MatrixXd& covariance);
+void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift);
+
 // Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 10, above which arms
 // bend and ring (the paper's choice), nor less than 4; less where coarse counts, differentiated twice, would drown the readings.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
+// Where the arm is known, joints at rest yield to the loads they bear (arm_yield).
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
-                  bool gyroscope);
+                  bool gyroscope, const KnownArm* arm = nullptr);
 
 }  // namespace circlepoint

@@ -93,17 +93,55 @@ double range(const SmoothSpan& span, const IndexRange& moving, Index joint) {
 
 }  // namespace
 
-std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
-  return range(span, moving, joint) > few_counts * resolution[joint] ? 0 : smoothing_for_motion(span, moving, resolution);
+bool crosses_counts(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
+  return range(span, moving, joint) > few_counts * resolution[joint];
 }
 
-std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution,
-                                      double rate) {
+std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
+  return crosses_counts(span, moving, joint, resolution) ? 0 : smoothing_for_motion(span, moving, resolution);
+}
+
+namespace {
+
+using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+// The same and all within the margin of it.
+Mask widened(const Mask& mask, Index margin) {
+  Mask wide = Mask::Constant(mask.size(), false);
+  for (Index i = 0; i < mask.size(); ++i) {
+    if (mask[i]) {
+      const Index first = std::max<Index>(0, i - margin);
+      wide.segment(first, std::min(mask.size(), i + margin + 1) - first).setConstant(true);
+    }
+  }
+  return wide;
+}
+
+// Only what lasts for as many samples.
+Mask runs(const Mask& mask, Index shortest) {
+  Mask kept = Mask::Constant(mask.size(), false);
+  Index from = 0;
+  for (Index i = 0; i <= mask.size(); ++i) {
+    if (i < mask.size() && mask[i]) {
+      continue;
+    }
+    if (i - from >= shortest || from == 0 || i == mask.size()) {
+      kept.segment(from, i - from).setConstant(true);
+    }
+    from = i + 1;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const std::vector<MovingAlone>& alone,
+                                      const Eigen::VectorXd& resolution, double rate) {
   constexpr double beyond = 3.0;      // eq. (11) inside reaches 1, a minimum-jerk move 2.3, a step of acceleration 5 and more
   constexpr double too_many = 0.2;    // share of a range that is then a motion of its own kind, not steps
   const SmoothJoints& joints = span.joints.front();
   const Index begin = moving.begin - span.samples.begin;
-  Eigen::Array<bool, Eigen::Dynamic, 1> step = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(moving.size(), false);
+  Mask step = Mask::Constant(moving.size(), false);
   for (Index j = 0; j < resolution.size(); ++j) {
     const double travel = range(span, moving, j);
     if (travel <= few_counts * resolution[j] || travel <= 0.0) {
@@ -113,22 +151,32 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     const double own = std::pow(2.0 * fastest / travel, 2) * fastest;
     step = step || joints.derivative(3, j, begin, moving.size()).array().abs() > beyond * own;
   }
-  if (static_cast<double>(step.count()) > too_many * static_cast<double>(moving.size())) {
-    return {moving};
+  const bool coarse = are_coarse(resolution);
+  Mask left_out = Mask::Constant(moving.size(), false);
+  if (static_cast<double>(step.count()) <= too_many * static_cast<double>(moving.size())) {
+    left_out = widened(step, static_cast<Index>(std::lround((coarse ? 0.9 : 0.5) * rate / joints.cutoff)));
   }
-  const auto margin = static_cast<Index>(std::lround((are_coarse(resolution) ? 0.9 : 0.5) * rate / joints.cutoff));
+  if (coarse) {
+    // Where a joint dwells on each count for longer than a few of what the filter averages over, its error is one number, not noise.
+    const auto margin = static_cast<Index>(std::lround(0.3 * rate / joints.cutoff));
+    Mask creeping = Mask::Constant(moving.size(), false);
+    for (const MovingAlone& motion : alone) {
+      const double slow = 5.0 * joints.cutoff * resolution[motion.joint];
+      const Index size = motion.samples.size();
+      creeping.segment(motion.samples.begin - moving.begin, size) =
+          joints.derivative(1, motion.joint, motion.samples.begin - span.samples.begin, size).array().abs() < slow;
+    }
+    left_out = left_out || widened(runs(creeping, margin), margin);
+  }
   std::vector<IndexRange> parts;
   Index from = 0;
-  for (Index i = 0; i < moving.size(); ++i) {
-    if (step[i]) {
-      if (i - margin > from) {
-        parts.push_back({moving.begin + from, moving.begin + i - margin});
+  for (Index i = 0; i <= moving.size(); ++i) {
+    if (i == moving.size() || left_out[i]) {
+      if (i > from) {
+        parts.push_back({moving.begin + from, moving.begin + i});
       }
-      from = i + margin + 1;
+      from = i + 1;
     }
-  }
-  if (from < moving.size()) {
-    parts.push_back({moving.begin + from, moving.end});
   }
   return parts;
 }

@@ -38,10 +38,20 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
 // really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
 std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
 
+// Whether a joint moves by so many counts that each sample errs on its own.
+bool crosses_counts(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
+
+struct MovingAlone {
+  IndexRange samples;
+  Index joint = 0;
+};
+
 // The parts of a moving range that hold no step of acceleration. A sampled step has no definite instant: readings there differ
 // from the encoders' second difference by what lies above half the sample rate. It shows as a jerk far beyond the motion's own. What
-// rings after it is left out too where coarse encoders do not show it.
-std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution, double rate);
+// rings after it is left out too where coarse encoders do not show it. So is where a joint that moves alone creeps over a coarse
+// encoder's counts, as it does beside every rest; `alone`: which one moves where, in order.
+std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const std::vector<MovingAlone>& alone,
+                                      const Eigen::VectorXd& resolution, double rate);
 
 // The smoothing that passes the moving joints' motion, a few times its frequency, and no more.
 std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution);

@@ -12,6 +12,9 @@
 // rest on the fitted motion instead of on the staircase; its covariance is the prior of shared offset parameters with the same
 // shapes, which the accelerometer may determine further.
 //
+// Where the arm's lines are known, the coefficients of all pairs are tied to one rigid arm on stiff joints (arm_tie), which follow
+// their torques a time constant late: a tenth of the unknowns.
+//
 // Left as it was: a joint whose counts contradict the model (it sticks, or is moved), by the misfit at its count changes; and
 // stretches in which several joints move.
 
@@ -26,6 +29,10 @@ namespace circlepoint {
 // Replaces the resting joints' positions in single-joint stretches and in the tests' dwells; marks them as followed. Dwells and
 // spans in the order of the segmentation and of the recording's spans.
 void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation& segmentation,
-                   const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution);
+                   const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution, const KnownArm* arm = nullptr);
+
+// Ties the resting joints' motion again, where the readings have meanwhile told more of the loads: `offsets` (K) are the shared
+// offsets found with the rows as they are, and become those of the new ones.
+void retie(ArmRows& rows, Eigen::VectorXd& offsets);
 
 }  // namespace circlepoint

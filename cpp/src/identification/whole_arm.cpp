@@ -5,11 +5,13 @@
 #include <cmath>
 #include <thread>
 
+#include "arm_encoder_noise.hpp"
 #include "arm_layout.hpp"
 #include "arm_report.hpp"
 #include "arm_result.hpp"
 #include "arm_solve.hpp"
 #include "arm_start.hpp"
+#include "arm_yield.hpp"
 #include "circlepoint/core/error.hpp"
 #include "test_samples.hpp"
 
@@ -17,6 +19,8 @@ namespace circlepoint {
 namespace {
 
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
+constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up
+constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
 
@@ -130,18 +134,30 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   lay_out(problem, state, moves, options);
   hold_fixed(state, problem.layout, options.sensor);
 
-  problem.noise = white_noise(problem.rows, 0.1, 0.02, 0.01);
+  constexpr double moving_guess = 0.1;  // m/s^2
+  constexpr double dwell_guess = 0.02;  // m/s^2
+  constexpr double rate_guess = 0.01;   // rad/s
+  problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
   Eigen::MatrixXd information;  // data and priors
   Eigen::MatrixXd covariance;
   NormalEquations all;
   std::vector<PartEquations> parts;
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+  if (problem.rows.yields) {
+    // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
+    state = solve(problem, state, 50, last_change).state;
+    const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
+    problem.rows = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
+    name_kinds(problem.rows, joints);
+    problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
+    problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+  }
   ArmResiduals now;
   InflationSearch search;
   for (int pass = 0; pass < options.max_passes; ++pass) {
     ArmSolution solution = solve(problem, state, 50, last_change);
     result.iterations += solution.iterations;
-    const ArmState before = state;
+    const ArmState former = state;
     state = solution.state;
     parts = std::move(solution.parts);
     const MarginalEquations data = marginal(problem, parts);
@@ -153,22 +169,30 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     now = residuals(problem, state);
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
-    result.converged = pass > 2 && left < still && largest_step(before, state, problem.layout, covariance) < still;
+    result.converged = pass > 2 && left < still && largest_step(former, state, problem.layout, covariance) < still;
     // What follows changes rows and weights, which only another pass takes in.
     if (result.converged || pass + 1 == options.max_passes) {
       break;
     }
+    if (pass < most_ties) {
+      retie(problem.rows, problem.offsets);
+    }
     // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
     const double inflation = pass > 0 ? search.next(problem.noise.inflation, score_ratio(problem, parts, covariance)) : 1.0;
-    if (pass > 0 && pass < 4) {
+    // A knock shows once the resting joints' loads are known.
+    const int first_cut = problem.rows.ties.empty() ? 1 : most_ties;
+    if (pass >= first_cut && pass < first_cut + 3) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
       if (cut > 0) {
+        problem.noise.encoder.clear();
         now = residuals(problem, state);
       }
     }
-    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance,
-                                   static_cast<double>(problem.layout.columns), inflation);
+    const ArmNoise before = std::move(problem.noise);
+    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns),
+                                   inflation, encoder_covariances(problem, state), pass > 0 ? &before : nullptr,
+                                   pass > passes_to_settle);
   }
   result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();

@@ -28,7 +28,15 @@ struct AutoregressiveModel {
 
 /// Model of order `order` at most: less where the segments are shorter or the recursion is exhausted (a signal that a
 /// lower order predicts exactly).
-AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segments, Index order);
+/// Where the segments are expectations, `more` (order + 1) is the sum over all pairs at each lag of what they are expected to
+/// covary by about them; empty: nothing.
+AutoregressiveModel fit_autoregressive(const std::vector<Eigen::VectorXd>& segments, Index order, const Eigen::VectorXd& more = {});
+
+/// Model of a process with the given autocovariance, at lags 0, 1 ... p; of lower order where the recursion is exhausted.
+AutoregressiveModel autoregressive_of(const Eigen::VectorXd& autocovariance);
+
+/// Model of what `second` leaves white once `first` has whitened it: their orders add up.
+AutoregressiveModel in_series(const AutoregressiveModel& first, const AutoregressiveModel& second);
 
 /// Each column of one segment whitened to unit variance, in place: (N, columns).
 void whiten(const AutoregressiveModel& model, Eigen::Ref<Eigen::MatrixXd> columns);
