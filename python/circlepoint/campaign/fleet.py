@@ -13,8 +13,10 @@ import multiprocessing
 import shutil
 import signal
 import tempfile
+import threading
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -377,8 +379,29 @@ def _pool(workers: int) -> Iterator[ProcessPoolExecutor]:
 
 def _submit(pool: ProcessPoolExecutor, log: FleetLog, scratch: Path) -> Future[Calibrated]:
     """Submit a log; the process this may begin leaves an interruption from the keyboard to this one."""
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    resource_tracker.ensure_running()  # whose own start would let the signal through
+    with _interrupted_later():
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # the process inherits it
+        try:
+            return pool.submit(calibrate_log, log, scratch)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+@contextlib.contextmanager
+def _interrupted_later() -> Iterator[None]:
+    """Put an interruption from the keyboard off to the end: a process half begun would be lost sight of.
+
+    Blocking the signal in this thread is not enough: another thread takes it, and this one hears of it all the same.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    interruptions: list[int] = []
+    handler = signal.signal(signal.SIGINT, lambda number, _: interruptions.append(number))
     try:
-        return pool.submit(calibrate_log, log, scratch)
+        yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        signal.signal(signal.SIGINT, handler)
+        if interruptions:
+            signal.raise_signal(signal.SIGINT)

@@ -154,8 +154,8 @@ def test_an_interrupted_fleet_leaves_no_process_no_traceback_and_no_scratch(flee
     time.sleep(0.3)  # into the start of the workers
     os.killpg(process.pid, signal.SIGINT)
     printed, _ = process.communicate(timeout=60.0)  # ends when no process has its end of the pipe any more
-    assert process.returncode == 130
     assert printed == "circlepoint: interrupted; what is finished is kept, and the same command goes on with the rest\n"
+    assert process.returncode == 130
     assert not (out / ".scratch").exists()
 
 
