@@ -153,7 +153,7 @@ def plot_ratios(rows: Sequence[Row], path: pathlib.Path) -> None:
     for shape in shapes:
         axes.plot([], [], "o", markersize=4.5, color=colours[shape], label=shape)
     axes.set_yticks(range(len(kernels)), [f"{kernel}\nagainst {against}" for kernel, against in kernels], fontsize=7)
-    axes.invert_yaxis()
+    axes.set_ylim(len(kernels) - 0.5, -0.5)  # the first on top
     axes.set_xscale("log")
     low, high = axes.get_xlim()
     ticks = [t for t in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if 0.9 * min(low, 1) <= t <= high]
