@@ -90,7 +90,8 @@ bench: install .venv/bench.stamp
 	$(BIN)/python bench/python/bench_kernels.py --out bench/results
 	$(BIN)/python bench/python/bench_calibration.py --out bench/results
 	cmake --workflow --preset bench
-	build/bench/bench/circlepoint_bench --benchmark_out=bench/results/stages.json --benchmark_out_format=json
+	build/bench/bench/circlepoint_bench --benchmark_context=commit=$$(git rev-parse --short HEAD) \
+	  --benchmark_out=bench/results/stages.json --benchmark_out_format=json
 
 # Cost and memory against samples, joints, tests and threads (some 10 minutes, 6 GB).
 bench-growth: install .venv/bench.stamp
