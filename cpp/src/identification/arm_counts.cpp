@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace circlepoint {
 namespace {
@@ -49,15 +51,12 @@ JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::
 }  // namespace
 
 void count_repeats(CountRows& counts) {
-  const Index changes = counts.change.size();
-  counts.repeats = Eigen::VectorXd::Zero(changes);
-  for (Index i = 0; i < changes; ++i) {
-    for (Index k = 0; k < changes; ++k) {
-      if (std::abs(counts.change[i] - counts.change[k]) < 0.25 && counts.upward[i] == counts.upward[k]) {
-        counts.repeats[i] += 1.0;
-      }
-    }
+  std::map<std::pair<long, bool>, double> times;
+  const auto kind = [&](Index i) { return std::pair{std::lround(2.0 * counts.change[i]), counts.upward[i] > 0.5}; };
+  for (Index i = 0; i < counts.change.size(); ++i) {
+    times[kind(i)] += 1.0;
   }
+  counts.repeats = Eigen::VectorXd::NullaryExpr(counts.change.size(), [&](Index i) { return times[kind(i)]; });
 }
 
 void read_counts(CountRows& counts, const Eigen::MatrixXd& phi, const Eigen::Ref<const Eigen::VectorXd>& encoder, Index thinning) {

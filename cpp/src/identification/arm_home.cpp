@@ -47,7 +47,7 @@ std::vector<HomeGroup> find_groups(const ArmRows& rows, const Segmentation& segm
       ++shared[static_cast<std::size_t>(dwell)];
     }
   }
-  const Eigen::ArrayXd tolerance = 1.5 * resolution.array();
+  const Eigen::ArrayXd tolerance = (1.5 * resolution.array()).max(1e-4);
   std::vector<HomeGroup> groups;
   std::vector<Index> group_of(rows.dwells.size(), -1);
   for (std::size_t i = 0; i < rows.dwells.size(); ++i) {
@@ -136,7 +136,7 @@ Index yielding_joints(const TestMotion& motion, const ArmRows& rows, const Recor
     const auto encoders =
         recording.joint_positions.middleRows(first_sample(stretch), end_sample(stretch) - first_sample(stretch));
     const Eigen::ArrayXd range = (encoders.colwise().maxCoeff() - encoders.colwise().minCoeff()).transpose();
-    changes = changes || range > 0.5 * resolution.array();
+    changes = changes || (resolution.array() > 0.0 && range > 0.5 * resolution.array());
   }
   changes[motion.joint] = false;
   return changes.count();
@@ -151,18 +151,17 @@ double quiet_std(Index changed, Index pairs) {
   constexpr double rms_of_range = 0.4;    // of a deflection that swings over the range
   constexpr Index steps = 200;
   const Eigen::ArrayXd range = Eigen::ArrayXd::LinSpaced(steps, 0.5, static_cast<double>(steps) - 0.5) / static_cast<double>(steps);
-  double weight = 0.0;
-  double squares = 0.0;
+  Eigen::ArrayXd log_likelihood(steps);
+  Eigen::ArrayXd square(steps);
   for (Index i = 0; i < steps; ++i) {
     const double mean = smallest_mean * std::pow(largest_mean / smallest_mean, (static_cast<double>(i) + 0.5) / static_cast<double>(steps));
     const Eigen::ArrayXd quiet = (-range / mean).exp() / mean * (1.0 - range) / static_cast<double>(steps);
     const double chance = std::clamp(quiet.sum(), 1e-12, 1.0 - 1e-12);
-    const double log_likelihood = static_cast<double>(changed) * std::log1p(-chance) + static_cast<double>(pairs - changed) * std::log(chance);
-    const double likelihood = std::exp(log_likelihood);
-    weight += likelihood;
-    squares += likelihood * (quiet * range.square()).sum() / chance;
+    log_likelihood[i] = static_cast<double>(changed) * std::log1p(-chance) + static_cast<double>(pairs - changed) * std::log(chance);
+    square[i] = (quiet * range.square()).sum() / chance;
   }
-  return rms_of_range * std::sqrt(squares / weight);
+  const Eigen::ArrayXd likelihood = (log_likelihood - log_likelihood.maxCoeff()).exp();
+  return rms_of_range * std::sqrt((likelihood * square).sum() / likelihood.sum());
 }
 
 // Home by its dwells' counts: the one seen most.
@@ -184,6 +183,11 @@ HomeTests find_home_tests(const ArmRows& rows, const Recording& recording, const
   Index pairs = 0;
   std::vector<TestMotion*> unmoved;  // in which no joint at rest changes its count
   for (HomeGroup& group : tests.groups) {
+    for (Index joint = 0; joint < recording.joints(); ++joint) {
+      if (resolution[joint] > 0.0) {
+        group.home[joint] = home_count(group, rows, joint);
+      }
+    }
     for (TestMotion& motion : group.tests) {
       prepare(motion, group.home, rows, spans, resolution);
       const Index here = yielding_joints(motion, rows, recording, resolution);
@@ -191,12 +195,7 @@ HomeTests find_home_tests(const ArmRows& rows, const Recording& recording, const
         unmoved.push_back(&motion);
       }
       tests.changed += here;
-      pairs += recording.joints() - 1;
-    }
-    for (Index joint = 0; joint < recording.joints(); ++joint) {
-      if (resolution[joint] > 0.0) {
-        group.home[joint] = home_count(group, rows, joint);
-      }
+      pairs += (resolution.array() > 0.0).count() - (resolution[motion.joint] > 0.0 ? 1 : 0);
     }
   }
   const double quiet = quiet_std(tests.changed, pairs);

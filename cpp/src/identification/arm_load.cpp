@@ -1,6 +1,5 @@
 #include "arm_load.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -260,6 +260,10 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
         members.push_back(i);
       }
     }
+    if (members.empty()) {  // all its rows were knocks
+      noise.kinds.push_back(before != nullptr ? before->kinds[static_cast<std::size_t>(kind)] : MotionNoise{});
+      continue;
+    }
     const bool coarse = std::any_of(members.begin(), members.end(), [&](std::size_t i) { return encoders[i].size() > 0; });
     if (coarse) {
       MotionNoise start = before != nullptr ? before->kinds[static_cast<std::size_t>(kind)]

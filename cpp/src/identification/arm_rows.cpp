@@ -67,9 +67,14 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
   }
   const Index motion = single_motion(segmentation, moving);
   const Index pieces = (available + longest - 1) / longest;
+  constexpr double finest = 1e-5;      // rad: errors of finer counts are next to nothing
   std::vector<std::size_t> smoothing;  // by joint
+  std::vector<Eigen::VectorXd> counts; // by joint, of the whole span; empty: its counts make no error worth telling
   for (Index joint = 0; joint < recording.joints(); ++joint) {
     smoothing.push_back(choose_smoothing(span, moving, joint, resolution));
+    const bool coarse = errors && resolution[joint] > finest && crosses_counts(span, moving, joint, resolution);
+    counts.emplace_back(coarse ? Eigen::VectorXd(span.joints[smoothing.back()].position.col(joint) / resolution[joint])
+                               : Eigen::VectorXd());
   }
   for (Index piece = 0; piece < pieces; ++piece) {
     const Index first = available * piece / pieces;
@@ -93,14 +98,12 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
       stretch.acceleration.col(joint) = joints.derivative(2, joint, index);
       stretch.jerk.col(joint) = joints.derivative(3, joint, index);
     }
-    if (errors) {
-      for (Index joint = 0; joint < recording.joints(); ++joint) {
-        if (crosses_counts(span, moving, joint, resolution)) {
-          const SmoothJoints& joints = span.joints[smoothing[static_cast<std::size_t>(joint)]];
-          const auto size = static_cast<float>(resolution[joint] * resolution[joint]);
-          stretch.errors.push_back({joint, size * count_error_covariance(joints.position.col(joint) / resolution[joint], index,
-                                                                         joints.cutoff, recording.sample_rate)});
-        }
+    for (Index joint = 0; joint < recording.joints(); ++joint) {
+      const auto at = static_cast<std::size_t>(joint);
+      if (counts[at].size() > 0) {
+        const auto size = static_cast<float>(resolution[joint] * resolution[joint]);
+        stretch.errors.push_back(
+            {joint, size * count_error_covariance(counts[at], index, span.joints[smoothing[at]].cutoff, recording.sample_rate)});
       }
     }
     stretch.reading = span.reading(index, Eigen::all);
@@ -391,11 +394,15 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
 
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,
                   bool gyroscope, const KnownArm* arm) {
-  const bool coarse = are_coarse(resolution);
-  ArmRows rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, coarse && !gyroscope, arm);
-  // Where joints at rest yield, what the model of their yield leaves is larger and looks alike; one fitted spectrum covers both.
-  if (coarse && rows.yields && arm == nullptr) {
-    rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, false, arm);
+  const bool errors = are_coarse(resolution) && !gyroscope;
+  ArmRows rows = make_rows(recording, segmentation, resolution, cutoff, gyroscope, errors && arm != nullptr, arm);
+  // Where joints at rest yield to loads not known, what the model of that leaves is larger than the counts' errors and looks alike;
+  // one fitted spectrum covers both.
+  if (errors && arm == nullptr && !rows.yields) {
+    ArmRows telling = make_rows(recording, segmentation, resolution, cutoff, gyroscope, true, arm);
+    if (!telling.stretches.empty()) {
+      rows = std::move(telling);
+    }
   }
   return rows;
 }

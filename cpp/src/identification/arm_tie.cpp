@@ -13,21 +13,31 @@ constexpr double free_home = 1e2;         // counts
 constexpr double free_lag = 0.1;          // s
 constexpr double unmodelled = 1e4;        // counts, of a pair the model does not describe
 constexpr double near = 0.01;             // counts rms that coefficients are taken to err by in the search for the nearest point
+constexpr double largest_error = 3.0;      // counts, of the model
+constexpr double smallest_error = 2e-3;
 constexpr int most_steps = 30;
 constexpr Index cosine = 0;               // arm_yield's functions
 constexpr Index sine = 1;
 constexpr Index velocity_cosine = 9;
 constexpr Index velocity_sine = 10;
 
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& information, double* log_determinant = nullptr) {
-  const Eigen::VectorXd root = information.diagonal().cwiseSqrt();
-  const Eigen::LDLT<Eigen::MatrixXd> factor(root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal());
-  if (log_determinant != nullptr) {
-    *log_determinant = factor.vectorD().array().max(1e-300).log().sum() + 2.0 * root.array().log().sum();
+// The factor of an information matrix scaled to a diagonal of one, with the scale.
+struct Scaled {
+  Eigen::VectorXd root;
+  Eigen::LDLT<Eigen::MatrixXd> factor;
+
+  explicit Scaled(const Eigen::MatrixXd& information)
+      : root(information.diagonal().cwiseSqrt()),
+        factor(Eigen::MatrixXd(root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal())) {}
+
+  [[nodiscard]] double log_determinant() const {
+    return factor.vectorD().array().max(1e-300).log().sum() + 2.0 * root.array().log().sum();
   }
-  const Eigen::MatrixXd inverted = factor.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
-  return root.cwiseInverse().asDiagonal() * inverted * root.cwiseInverse().asDiagonal();
-}
+  [[nodiscard]] Eigen::MatrixXd inverse() const {
+    const Eigen::MatrixXd inverted = factor.solve(Eigen::MatrixXd::Identity(root.size(), root.size()));
+    return root.cwiseInverse().asDiagonal() * inverted * root.cwiseInverse().asDiagonal();
+  }
+};
 
 }  // namespace
 
@@ -178,11 +188,10 @@ LoadPoint LoadModel::fit() const {
   LoadPoint best;
   double most = -std::numeric_limits<double>::infinity();
   Eigen::VectorXd theta = start();
-  for (double model_std = 0.3; model_std > 2e-3; model_std /= 1.6) {
+  for (double model_std = largest_error; model_std > smallest_error; model_std /= 1.6) {
     const Factors factors = this->factors(model_std);
     const Equations equations = minimise(factors, counted_, prior(), start(), theta);
-    double log_determinant = 0.0;
-    inverse(equations.information, &log_determinant);
+    double log_determinant = Scaled(equations.information).log_determinant();
     for (const auto& factor : factors) {
       log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
     }
@@ -199,7 +208,7 @@ Eigen::VectorXd LoadModel::lag(const LoadPoint& point) const { return point.thet
 
 TiedFits LoadModel::tied(const LoadPoint& point) const {
   const Equations equations = linearised(factors(point.model_std), counted_, prior(), start(), point.theta);
-  const Eigen::MatrixXd covariance = inverse(equations.information);
+  const Eigen::MatrixXd covariance = Scaled(equations.information).inverse();
   const Eigen::VectorXd step = -covariance * equations.gradient;
   // c given theta is between the counts and B(theta), by their variances; theta's own uncertainty is common to all.
   TiedFits result;

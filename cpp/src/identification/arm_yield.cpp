@@ -81,6 +81,7 @@ void apply(ArmRows& rows, const HomeGroup& group, const RestingFit& resting, con
       stretch.velocity.col(joint) = count * velocity * c;
       stretch.acceleration.col(joint) = count * acceleration * c;
       stretch.jerk.col(joint).setZero();
+      std::erase_if(stretch.errors, [&](const PositionError& error) { return error.joint == joint; });
       stretch.follows[slot] = true;
       const Eigen::VectorXd zero = Eigen::VectorXd::Zero(stretch.rows());
       add_term(stretch, {joint, offset}, Eigen::VectorXd::Ones(stretch.rows()), zero, zero);
@@ -117,7 +118,8 @@ Eigen::VectorXd find_lags(const ReadAll& read_all, const ArmAtHome& home) {
     }
     const Eigen::VectorXd now = missing_at(lag);
     for (Index joint = 0; joint < lag.size(); ++joint) {
-      const double slope = (now[joint] - missing[joint]) / (lag[joint] - before[joint]);
+      const double moved = lag[joint] - before[joint];
+      const double slope = moved != 0.0 ? (now[joint] - missing[joint]) / moved : 0.0;
       step[joint] = slope < -0.5 ? -now[joint] / slope : now[joint];
     }
     missing = now;

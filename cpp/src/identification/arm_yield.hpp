@@ -29,7 +29,7 @@ namespace circlepoint {
 // Replaces the resting joints' positions in single-joint stretches and in the tests' dwells; marks them as followed. Dwells and
 // spans in the order of the segmentation and of the recording's spans.
 void follow_yields(ArmRows& rows, const Recording& recording, const Segmentation& segmentation,
-                   const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution, const KnownArm* arm = nullptr);
+                   const std::vector<SmoothSpan>& spans, const Eigen::VectorXd& resolution, const KnownArm* arm);
 
 // Ties the resting joints' motion again, where the readings have meanwhile told more of the loads: `offsets` (K) are the shared
 // offsets found with the rows as they are, and become those of the new ones.

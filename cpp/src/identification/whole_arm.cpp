@@ -19,7 +19,8 @@ namespace circlepoint {
 namespace {
 
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
-constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up
+constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up; knocks show after
+constexpr int passes_that_cut = 3;        // knocks
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
@@ -145,13 +146,20 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   if (problem.rows.yields) {
     // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
-    state = solve(problem, state, 50, last_change).state;
+    const ArmSolution first = solve(problem, state, 50, last_change);
+    result.iterations += first.iterations;
+    state = first.state;
     const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
-    problem.rows = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
-    name_kinds(problem.rows, joints);
-    problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
-    problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+    ArmRows tied = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
+    if (!tied.stretches.empty()) {
+      problem.rows = std::move(tied);
+      result.samples = problem.rows.samples;
+      name_kinds(problem.rows, joints);
+      problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
+      problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+    }
   }
+  const int first_cut = problem.rows.ties.empty() ? 1 : std::clamp(options.max_passes / 2, 1, most_ties);
   ArmResiduals now;
   InflationSearch search;
   for (int pass = 0; pass < options.max_passes; ++pass) {
@@ -169,19 +177,17 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     now = residuals(problem, state);
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
-    result.converged = pass > 2 && left < still && largest_step(former, state, problem.layout, covariance) < still;
+    result.converged = pass > first_cut + 1 && left < still && largest_step(former, state, problem.layout, covariance) < still;
     // What follows changes rows and weights, which only another pass takes in.
     if (result.converged || pass + 1 == options.max_passes) {
       break;
     }
-    if (pass < most_ties) {
+    if (pass < first_cut) {
       retie(problem.rows, problem.offsets);
     }
     // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
     const double inflation = pass > 0 ? search.next(problem.noise.inflation, score_ratio(problem, parts, covariance)) : 1.0;
-    // A knock shows once the resting joints' loads are known.
-    const int first_cut = problem.rows.ties.empty() ? 1 : most_ties;
-    if (pass >= first_cut && pass < first_cut + 3) {
+    if (pass >= first_cut && pass < first_cut + passes_that_cut) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
       if (cut > 0) {
@@ -189,10 +195,11 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
         now = residuals(problem, state);
       }
     }
+    problem.noise.encoder.clear();
     const ArmNoise before = std::move(problem.noise);
     problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns),
                                    inflation, encoder_covariances(problem, state), pass > 0 ? &before : nullptr,
-                                   pass > passes_to_settle);
+                                   pass > std::max(passes_to_settle, first_cut + passes_that_cut - 1));
   }
   result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();

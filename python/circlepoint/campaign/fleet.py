@@ -402,6 +402,6 @@ def _interrupted_later() -> Iterator[None]:
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, handler)
+        signal.signal(signal.SIGINT, signal.default_int_handler if handler is None else handler)
         if interruptions:
             signal.raise_signal(signal.SIGINT)
