@@ -105,7 +105,10 @@ def next_tests(document: Document) -> list[str]:
     weakest = sorted({joints[worst[1]]["name"] for worst in (axis, line) if worst is not None})
     if not weakest:
         return []
-    return [f"Nothing is missing. Least certain: {_listed(weakest)}; another test of it would improve the arm most."]
+    them = "it" if len(weakest) == 1 else "them"
+    return [
+        f"Nothing is missing. Least certain: {_listed(weakest)}; another test of {them} would improve the arm most."
+    ]
 
 
 def findings(document: Document) -> list[tuple[str, str, str]]:
