@@ -139,6 +139,8 @@ def test_a_full_disk_ends_the_run_and_is_no_fault_of_the_logs(fleet, finished, t
 
 def test_an_interrupted_fleet_leaves_no_process_no_traceback_and_no_scratch(fleet, tmp_path):
     out = tmp_path / "out"
+    # What a shell runs in the background ignores the signal, and so would its children.
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen(
         [sys.executable, "-m", "circlepoint", "campaign", str(fleet), "--out", str(out), "--workers", "2"],
         stdout=subprocess.PIPE,
@@ -146,6 +148,7 @@ def test_an_interrupted_fleet_leaves_no_process_no_traceback_and_no_scratch(flee
         text=True,
         start_new_session=True,
     )
+    signal.signal(signal.SIGINT, handler)
     deadline = time.monotonic() + 300.0
     while not (out / ".scratch").exists():
         assert process.poll() is None
