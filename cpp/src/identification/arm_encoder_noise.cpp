@@ -6,23 +6,21 @@
 #include <numbers>
 
 #include "arm_problem.hpp"
-#include "circlepoint/conditioning/butterworth.hpp"
-#include "circlepoint/conditioning/differentiate.hpp"
+#include "arm_smooth.hpp"
 
 namespace circlepoint {
 namespace {
 
 // What one sample does to the smoothed position around it and to its derivatives: columns 0 to 2, from `reach` before to `reach` after.
 Eigen::MatrixXd impulse_responses(double cutoff, double rate, Index reach) {
-  constexpr Index window = 7;  // of arm_smooth's derivatives
   const Index margin = 3 * reach;
   SamplesX impulse = SamplesX::Zero(2 * margin + 1, 1);
   impulse(margin, 0) = 1.0;
-  const SamplesX position = sosfiltfilt(butter(4, cutoff, rate), impulse, PadType::even, reach);
+  const SamplesX position = low_passed(impulse, cutoff, rate);
   Eigen::MatrixXd responses(2 * reach + 1, 3);
   responses.col(0) = position.col(0).segment(margin - reach, 2 * reach + 1);
   for (int order = 1; order < 3; ++order) {
-    responses.col(order) = savgol_filter(position, window, window - 1, order, 1.0 / rate).col(0).segment(margin - reach, 2 * reach + 1);
+    responses.col(order) = differentiated(position, order, rate).col(0).segment(margin - reach, 2 * reach + 1);
   }
   return responses;
 }

@@ -67,7 +67,6 @@ struct YieldTie {
   LoadPoint point;
   Eigen::VectorXd estimate;      // of all coefficients, as the rows have them
   Eigen::MatrixXd reduce;        // (parameters, coefficients)
-  Eigen::MatrixXd expand;        // (coefficients, parameters)
   Index offset = 0;              // the first of the parameters, shared offsets
 };
 

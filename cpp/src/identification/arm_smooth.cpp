@@ -25,18 +25,22 @@ constexpr std::array<Weights, 3> centre_weights{
     Weights{1.0 / 90.0, -3.0 / 20.0, 3.0 / 2.0, -49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0},
     Weights{1.0 / 8.0, -1.0, 13.0 / 8.0, 0.0, -13.0 / 8.0, 1.0, -1.0 / 8.0}};
 
-SamplesX low_pass(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate) {
+}  // namespace
+
+SamplesX low_passed(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate) {
   const auto pad = std::min<Index>(samples.rows() - 1, static_cast<Index>(std::lround(4.0 * rate / cutoff)));
   return sosfiltfilt(butter(filter_order, cutoff, rate), samples, PadType::even, pad);
 }
 
-}  // namespace
+SamplesX differentiated(const Eigen::Ref<const SamplesX>& samples, int order, double rate) {
+  return savgol_filter(samples, window, window - 1, order, 1.0 / rate);
+}
 
 Eigen::VectorXd SmoothJoints::derivative(int order, Index joint, Index begin, Index count) const {
   const Index first = std::clamp<Index>(begin - window, 0, std::max<Index>(0, position.rows() - window));
   const Index last = std::min(position.rows(), std::max(begin + count + window, first + window));
   const SamplesX around = position.col(joint).segment(first, last - first);
-  return savgol_filter(around, window, window - 1, order, 1.0 / rate).col(0).segment(begin - first, count);
+  return differentiated(around, order, rate).col(0).segment(begin - first, count);
 }
 
 Eigen::VectorXd SmoothJoints::derivative(int order, Index joint, const Eigen::ArrayXi& rows) const {
@@ -64,14 +68,14 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
   result.samples = span;
   const SamplesX position = recording.joint_positions.middleRows(span.begin, span.size());
   for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
-    result.joints.push_back({mine, rate, low_pass(position, mine, rate)});
+    result.joints.push_back({mine, rate, low_passed(position, mine, rate)});
   }
   SamplesX reading(span.size(), gyroscope ? 6 : 3);
   reading.leftCols(3) = recording.specific_force.middleRows(span.begin, span.size());
   if (gyroscope) {
     reading.rightCols(3) = recording.angular_velocity->middleRows(span.begin, span.size());
   }
-  result.reading = low_pass(reading, cutoff, rate);
+  result.reading = low_passed(reading, cutoff, rate);
   const auto run_in = std::min<Index>(span.size() / 4, static_cast<Index>(std::lround(2.5 * rate / cutoff)));
   const auto still = [&](Index from) {
     const auto edge = recording.joint_positions.middleRows(from, run_in);

@@ -10,6 +10,11 @@ namespace circlepoint {
 // Whether some encoder is too coarse to see what its joint yields, in rad a count.
 inline bool are_coarse(const Eigen::VectorXd& resolution) { return resolution.maxCoeff() > 1e-4; }
 
+// The filter and the derivatives of everything here: a Butterworth low-pass of order 4 to and fro, and the sixth-degree polynomial
+// through seven samples.
+SamplesX low_passed(const Eigen::Ref<const SamplesX>& samples, double cutoff, double rate);
+SamplesX differentiated(const Eigen::Ref<const SamplesX>& samples, int order, double rate);
+
 // Positions are kept, derivatives taken where they are asked for: a long recording's would be most of the memory.
 struct SmoothJoints {
   double cutoff = 0.0;  // Hz

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scaled_information.hpp"
+
 namespace circlepoint {
 namespace {
 
@@ -20,24 +22,6 @@ constexpr Index cosine = 0;               // arm_yield's functions
 constexpr Index sine = 1;
 constexpr Index velocity_cosine = 9;
 constexpr Index velocity_sine = 10;
-
-// The factor of an information matrix scaled to a diagonal of one, with the scale.
-struct Scaled {
-  Eigen::VectorXd root;
-  Eigen::LDLT<Eigen::MatrixXd> factor;
-
-  explicit Scaled(const Eigen::MatrixXd& information)
-      : root(information.diagonal().cwiseSqrt()),
-        factor(Eigen::MatrixXd(root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal())) {}
-
-  [[nodiscard]] double log_determinant() const {
-    return factor.vectorD().array().max(1e-300).log().sum() + 2.0 * root.array().log().sum();
-  }
-  [[nodiscard]] Eigen::MatrixXd inverse() const {
-    const Eigen::MatrixXd inverted = factor.solve(Eigen::MatrixXd::Identity(root.size(), root.size()));
-    return root.cwiseInverse().asDiagonal() * inverted * root.cwiseInverse().asDiagonal();
-  }
-};
 
 }  // namespace
 
@@ -191,7 +175,7 @@ LoadPoint LoadModel::fit() const {
   for (double model_std = largest_error; model_std > smallest_error; model_std /= 1.6) {
     const Factors factors = this->factors(model_std);
     const Equations equations = minimise(factors, counted_, prior(), start(), theta);
-    double log_determinant = Scaled(equations.information).log_determinant();
+    double log_determinant = ScaledInformation(equations.information).log_determinant();
     for (const auto& factor : factors) {
       log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
     }
@@ -208,7 +192,7 @@ Eigen::VectorXd LoadModel::lag(const LoadPoint& point) const { return point.thet
 
 TiedFits LoadModel::tied(const LoadPoint& point) const {
   const Equations equations = linearised(factors(point.model_std), counted_, prior(), start(), point.theta);
-  const Eigen::MatrixXd covariance = Scaled(equations.information).inverse();
+  const Eigen::MatrixXd covariance = ScaledInformation(equations.information).inverse();
   const Eigen::VectorXd step = -covariance * equations.gradient;
   // c given theta is between the counts and B(theta), by their variances; theta's own uncertainty is common to all.
   TiedFits result;

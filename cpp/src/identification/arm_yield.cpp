@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "arm_home.hpp"
-#include "circlepoint/conditioning/differentiate.hpp"
 
 namespace circlepoint {
 namespace {
@@ -19,14 +18,13 @@ struct Reduction {
   Eigen::MatrixXd reduce;                   // (parameters, coefficients), rad a count included
 };
 
-Reduction reduction(const JointFit& fit, double count) {
+Reduction reduction(const RestingFit& resting, double count) {
+  const JointFit& fit = resting.fit;
   Reduction result;
   Index parameters = 1;
-  const auto size = [&](std::size_t k) {
-    return (k + 1 < fit.first.size() ? fit.first[k + 1] : fit.estimate.size()) - fit.first[k];
-  };
   for (std::size_t k = 0; k < fit.tests.size(); ++k) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(fit.covariance.block(fit.first[k], fit.first[k], size(k), size(k)));
+    const Index size = resting.resolve[k].rows();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(fit.covariance.block(fit.first[k], fit.first[k], size, size));
     const auto kept = (solver.eigenvalues().array() > negligible * negligible).count();
     result.directions.emplace_back(solver.eigenvectors().rightCols(kept));
     result.first.push_back(parameters);
@@ -35,7 +33,8 @@ Reduction reduction(const JointFit& fit, double count) {
   result.reduce = Eigen::MatrixXd::Zero(parameters, fit.estimate.size());
   result.reduce(0, 0) = count;
   for (std::size_t k = 0; k < fit.tests.size(); ++k) {
-    result.reduce.block(result.first[k], fit.first[k], result.directions[k].cols(), size(k)) = count * result.directions[k].transpose();
+    const Eigen::MatrixXd& directions = result.directions[k];
+    result.reduce.block(result.first[k], fit.first[k], directions.cols(), directions.rows()) = count * directions.transpose();
   }
   return result;
 }
@@ -75,8 +74,8 @@ void apply(ArmRows& rows, const HomeGroup& group, const RestingFit& resting, con
       const Eigen::ArrayXi index = stretch.sample - stretch.sample[0];
       const SamplesX phi = functions_of(motion, s, lag, rows.sample_rate);
       const Eigen::MatrixXd position = phi(index, Eigen::all);
-      const Eigen::MatrixXd velocity = savgol_filter(phi, 7, 6, 1, 1.0 / rows.sample_rate)(index, Eigen::all);
-      const Eigen::MatrixXd acceleration = savgol_filter(phi, 7, 6, 2, 1.0 / rows.sample_rate)(index, Eigen::all);
+      const Eigen::MatrixXd velocity = differentiated(phi, 1, rows.sample_rate)(index, Eigen::all);
+      const Eigen::MatrixXd acceleration = differentiated(phi, 2, rows.sample_rate)(index, Eigen::all);
       stretch.position.col(joint) = (home + count * (position * c).array()).matrix();
       stretch.velocity.col(joint) = count * velocity * c;
       stretch.acceleration.col(joint) = count * acceleration * c;
@@ -91,6 +90,11 @@ void apply(ArmRows& rows, const HomeGroup& group, const RestingFit& resting, con
       }
     }
   }
+}
+
+// The coefficients that the reduced parameters stand for: directions are at right angles.
+Eigen::VectorXd expanded(const Eigen::MatrixXd& reduce, const Eigen::VectorXd& parameters) {
+  return reduce.transpose() * parameters.cwiseQuotient(reduce.rowwise().squaredNorm());
 }
 
 // The reduced parameters' prior, of all fits, from the coefficients' covariance.
@@ -148,7 +152,7 @@ void follow_group(ArmRows& rows, const HomeGroup& group, const GroupReader& read
     home = at_home(*arm, group.home);
     lag = find_lags(read_all, home);
   }
-  YieldTie tie{read_all(lag), home, {}, {}, {}, {}, 0};
+  YieldTie tie{read_all(lag), home, {}, {}, {}, 0};
   if (tie.fits.empty()) {
     return;
   }
@@ -156,21 +160,18 @@ void follow_group(ArmRows& rows, const HomeGroup& group, const GroupReader& read
   Index parameters = 0;
   std::vector<Reduction> reduced;
   for (const RestingFit& resting : tie.fits) {
-    reduced.push_back(reduction(resting.fit, resolution[resting.joint]));
+    reduced.push_back(reduction(resting, resolution[resting.joint]));
     coefficients += resting.fit.estimate.size();
     parameters += reduced.back().reduce.rows();
   }
   tie.reduce = Eigen::MatrixXd::Zero(parameters, coefficients);
-  tie.expand = Eigen::MatrixXd::Zero(coefficients, parameters);
   TiedFits known{Eigen::VectorXd(coefficients), Eigen::MatrixXd::Zero(coefficients, coefficients)};
   Index row = 0;
   Index column = 0;
   for (std::size_t i = 0; i < tie.fits.size(); ++i) {
     const JointFit& fit = tie.fits[i].fit;
     const Eigen::MatrixXd& reduce = reduced[i].reduce;
-    const double count = resolution[tie.fits[i].joint];
     tie.reduce.block(row, column, reduce.rows(), reduce.cols()) = reduce;
-    tie.expand.block(column, row, reduce.cols(), reduce.rows()) = reduce.transpose() / (count * count);
     known.estimate.segment(column, reduce.cols()) = fit.estimate;
     known.covariance.block(column, column, reduce.cols(), reduce.cols()) = fit.covariance;
     row += reduce.rows();
@@ -213,11 +214,11 @@ void retie(ArmRows& rows, Eigen::VectorXd& offsets) {
   for (YieldTie& tie : rows.ties) {
     const LoadModel model(tie.fits, tie.arm);
     const Index size = tie.reduce.rows();
-    const Eigen::VectorXd found = tie.estimate + tie.expand * offsets.segment(tie.offset, size);
+    const Eigen::VectorXd found = tie.estimate + expanded(tie.reduce, offsets.segment(tie.offset, size));
     tie.point = model.nearest(tie.point, found);
     const TiedFits known = model.tied(tie.point);
     const Eigen::VectorXd shift = tie.reduce * (known.estimate - tie.estimate);
-    tie.estimate += tie.expand * shift;
+    tie.estimate += expanded(tie.reduce, shift);
     shift_offsets(rows, tie.offset, shift);
     offsets.segment(tie.offset, size) -= shift;
     set_prior(rows, tie.offset, reduced_covariance(tie.reduce, known.covariance));

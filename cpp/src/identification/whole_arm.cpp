@@ -1,6 +1,5 @@
 #include "circlepoint/identification/whole_arm.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "arm_start.hpp"
 #include "arm_yield.hpp"
 #include "circlepoint/core/error.hpp"
+#include "scaled_information.hpp"
 #include "test_samples.hpp"
 
 namespace circlepoint {
@@ -71,15 +71,6 @@ double largest_step(const ArmState& before, const ArmState& after, const ArmLayo
   }
   const Eigen::VectorXd std = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
   return change.cwiseAbs().cwiseQuotient(std).maxCoeff();
-}
-
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& information) {
-  const Eigen::VectorXd root = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  Eigen::MatrixXd scaled = root.cwiseInverse().asDiagonal() * information * root.cwiseInverse().asDiagonal();
-  scaled.diagonal().array() += 1e-15;
-  const Eigen::LDLT<Eigen::MatrixXd> factor(scaled);
-  const Eigen::MatrixXd inverted = factor.solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
-  return root.cwiseInverse().asDiagonal() * inverted * root.cwiseInverse().asDiagonal();
 }
 
 }  // namespace
@@ -173,7 +164,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     problem.offsets = data.offsets;
     const NormalEquations prior = linearise_prior(problem, state);
     information = all.information + prior.information;
-    covariance = inverse(information);
+    covariance = ScaledInformation(information, 1e-15).inverse();
     now = residuals(problem, state);
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
