@@ -8,9 +8,12 @@ namespace {
 
 void bind_options(py::module_& m) {
   py::class_<ParameterTreatment>(m, "ParameterTreatment", "How one group of parameters is treated: fixed, free, or with a prior.")
-      .def(py::init<bool, double>(), py::arg("estimated") = true, py::arg("std") = std::numeric_limits<double>::infinity())
+      .def(py::init<bool, double, bool>(), py::arg("estimated") = true, py::arg("std") = std::numeric_limits<double>::infinity(),
+           py::arg("where_evident") = false)
       .def_readwrite("estimated", &ParameterTreatment::estimated, "False: fixed at its nominal value")
-      .def_readwrite("std", &ParameterTreatment::std, "of the Gaussian prior about the nominal value; infinite: free");
+      .def_readwrite("std", &ParameterTreatment::std, "of the Gaussian prior about the nominal value; infinite: free")
+      .def_readwrite("where_evident", &ParameterTreatment::where_evident,
+                     "encoders' errors: only those that the data show by six standard deviations");
   py::class_<WholeArmOptions>(m, "WholeArmOptions", "Options of calibrate_whole_arm.")
       .def(py::init<>())
       .def_readwrite("sensor", &WholeArmOptions::sensor, "prior on the individual sensor")

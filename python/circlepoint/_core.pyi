@@ -2156,7 +2156,7 @@ class ParameterTreatment:
     """
     How one group of parameters is treated: fixed, free, or with a prior.
     """
-    def __init__(self, estimated: bool = True, std: typing.SupportsFloat | typing.SupportsIndex = ...) -> None:
+    def __init__(self, estimated: bool = True, std: typing.SupportsFloat | typing.SupportsIndex = ..., where_evident: bool = False) -> None:
         ...
     @property
     def estimated(self) -> bool:
@@ -2173,6 +2173,14 @@ class ParameterTreatment:
         """
     @std.setter
     def std(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def where_evident(self) -> bool:
+        """
+        encoders' errors: only those that the data show by six standard deviations
+        """
+    @where_evident.setter
+    def where_evident(self, arg0: bool) -> None:
         ...
 class WholeArmOptions:
     """

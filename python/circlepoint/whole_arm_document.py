@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from circlepoint.document import Document, estimate_entry, plain
+from circlepoint.document import Document, estimate_entry, finding_entries, plain
+from circlepoint.findings import Finding
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -22,6 +23,7 @@ _TRIPLES = {
     "misalignment": ("misalignment_yx", "misalignment_zx", "misalignment_zy"),
     "second_order": ("second_order_x", "second_order_y", "second_order_z"),
 }
+_ENCODER_ERRORS = ("gain", "eccentricity_cos", "eccentricity_sin")
 _PERCUSSION = ("percussion_distance_x", "percussion_distance_y", "percussion_distance_z")
 
 
@@ -45,6 +47,8 @@ def with_whole_arm(document: Mapping[str, Any], arm: Arm, estimate: circlepoint.
         "identifiability": _identifiability_entry(document, estimate),
         "fit": _fit_entry(estimate),
         "hold_out": [_hold_out_entry(arm, stretch) for stretch in estimate.stretches],
+        "encoders": (encoders := _encoder_entries(arm, estimate)),
+        "findings": [*document["findings"], *finding_entries(_encoder_findings(encoders))],
     }
 
 
@@ -125,6 +129,47 @@ def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
         "iterations": estimate.iterations,
         "converged": estimate.converged,
     }
+
+
+def _encoder_entries(arm: Arm, estimate: circlepoint.WholeArmCalibration) -> list[Document]:
+    index = _named(estimate)
+    entries: list[Document] = []
+    for number, joint in enumerate(arm.joints, start=1):
+        errors: Document = {}
+        for error in _ENCODER_ERRORS:
+            at = index.get(f"joint{number}.{error}")
+            parameter = None if at is None else estimate.parameters[at]
+            errors[error] = None if parameter is None else estimate_entry(parameter.value, parameter.std)
+        if any(error is not None for error in errors.values()):
+            entries.append({"joint": joint.name, **errors})
+    return entries
+
+
+def _encoder_findings(entries: Sequence[Document]) -> list[Finding]:
+    findings = []
+    told = (
+        "('encoders' in calibration.json). The lines allow for it; DH, URDF and the other exports cannot: correct "
+        "the joint's position by it"
+    )
+    for entry in entries:
+        joint, gain, cosine, sine = entry["joint"], *(entry[error] for error in _ENCODER_ERRORS)
+        if gain is not None:
+            percent, std = 1e2 * gain["estimate"], 1e2 * gain["std"]
+            message = (
+                f"{joint}: turns {abs(percent):.3g} % {'more' if percent > 0.0 else 'less'} than its encoder says, "
+                f"standard deviation {std:.1g} % {told}"
+            )
+            findings.append(Finding("encoder_gain", message, joint))
+        if cosine is not None and sine is not None:
+            off = 1e3 * math.hypot(cosine["estimate"], sine["estimate"])
+            std = 1e3 * math.hypot(cosine["std"], sine["std"]) / math.sqrt(2.0)
+            message = (
+                f"{joint}: once a turn its position is off what its encoder says by {off:.2g} mrad, standard "
+                f"deviation {std:.1g} mrad: the encoder is off its axis, or what the joint carries gives way to "
+                f"gravity {told}"
+            )
+            findings.append(Finding("eccentricity", message, joint))
+    return findings
 
 
 def _hold_out_entry(arm: Arm, stretch: circlepoint.StretchResidual) -> Document:

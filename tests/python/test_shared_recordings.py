@@ -7,9 +7,9 @@ import pytest
 
 import circlepoint
 from circlepoint.arm import load_arm
-from circlepoint.calibration import calibrate
+from circlepoint.calibration import calibrate, whole_arm_options
 from circlepoint.cli import main
-from circlepoint.nominal import nominal_chain
+from circlepoint.nominal import nominal_chain, nominal_dh_chain
 from circlepoint.recording_io import read_recording
 from circlepoint.sensor_presets import load_sensor
 
@@ -139,6 +139,35 @@ def test_every_axis_of_the_real_arm_lies_where_the_maker_says(whole_real_arm):
         assert joint["point_std"] < 5e-3
         assert joint["nominal"]["direction_difference"] < 1.0 * DEGREE
         assert joint["nominal"]["point_difference"] < 0.012
+
+
+def test_the_real_arms_last_joint_is_found_to_be_off_once_a_turn_and_no_other(whole_real_arm):
+    (off,) = whole_real_arm[1]["encoders"]
+    assert off["joint"] == "wrist_3_joint"
+    assert off["gain"] is None
+    assert np.hypot(off["eccentricity_cos"]["estimate"], off["eccentricity_sin"]["estimate"]) == pytest.approx(
+        4.3e-3, abs=0.5e-3
+    )
+
+
+@pytest.mark.parametrize("gyroscope", [False, True])
+def test_lengths_of_the_real_arm_are_the_makers_within_millimetres(shared_data, gyroscope):
+    folder = shared_data / "real-ur5-imu-6"
+    arm = load_arm(folder / "arm.yaml")
+    log = read_recording([folder / "joints.csv", folder / "sensor.csv"], arm)
+    options = whole_arm_options(arm, None, circlepoint.STANDARD_GRAVITY, None, two_clocks=True)
+    options.use_gyroscope = gyroscope
+    joints = circlepoint.calibrate_whole_arm(log.recording, circlepoint.segment(log.recording), options).joints
+    conversion = circlepoint.to_hayati(joints.chain(), nominal_dh_chain(arm), 0.05)
+    jacobian = circlepoint.hayati_parameter_jacobian(joints.chain(), conversion)
+    std = np.sqrt(np.einsum("ij,jk,ik->i", jacobian, joints.covariance, jacobian)).reshape(-1, 5)
+    rows = conversion.chain.rows
+    lengths = np.array([rows[1].a, rows[2].a, rows[3].d, rows[4].d])
+    spread = np.array([std[1, 0], std[2, 0], std[3, 2], std[4, 2]])
+    error = np.abs(lengths - [-0.425, -0.39225, 0.10915, 0.09465])
+    assert error.max() < (6e-3 if gyroscope else 5e-3)
+    assert spread.max() < 3.5e-3
+    assert (error / spread).max() < 3.5
 
 
 def test_whole_arm_clocks_agree_with_their_alignment_by_activity(real_arm, whole_real_arm):

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm_encoder_errors.hpp"
+
 namespace circlepoint {
 namespace {
 
@@ -18,17 +20,10 @@ ParameterTreatment settle(const ParameterTreatment& treatment, double specified)
   return settled;
 }
 
-void add_prior(ArmPrior& prior, Index column, const Eigen::VectorXd& mean, double std) {
-  if (std::isfinite(std)) {
-    prior.terms.push_back({column, mean, Eigen::MatrixXd(Eigen::MatrixXd::Identity(mean.size(), mean.size()) / std)});
-  }
-}
-
 }  // namespace
 
 void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>& moves, const WholeArmOptions& options) {
   ArmLayout& layout = problem.layout;
-  const auto joints = static_cast<Index>(moves.size());
   layout.claim_lines(state.axes, moves);
   layout.up_gravity = layout.claim(3);
   problem.prior.gravity = options.gravity_magnitude;
@@ -63,8 +58,7 @@ void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>
   if (layout.clock_offset >= 0) {
     group(layout.clock_rate, options.clock_rate, 0.0, Eigen::VectorXd::Ones(1));
   }
-  group(layout.encoder_gain, options.encoder_gain, 0.0, Eigen::VectorXd::Zero(joints));
-  group(layout.eccentricity, options.eccentricity, 0.0, Eigen::VectorXd::Zero(2 * joints));
+  claim_encoder_errors(problem, state, moves, options);
   if (problem.rows.channels == 6) {
     group(layout.gyroscope_bias, options.gyroscope_bias, 0.0, zero);
     Eigen::VectorXd identity(9);

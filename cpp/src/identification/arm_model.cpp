@@ -64,8 +64,8 @@ void ArmPredictor::correct_encoders() {
   now_ = stamped_;
   for (Index j = 0; j < joints_; ++j) {
     const double gain = state_.encoder_gain[j];
-    const double cosine = state_.eccentricity(j, 0);
-    const double sine = state_.eccentricity(j, 1);
+    const double cosine = state_.eccentricity(0, j);
+    const double sine = state_.eccentricity(1, j);
     if (gain == 0.0 && cosine == 0.0 && sine == 0.0) {
       continue;
     }
@@ -210,10 +210,12 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
 
 // All of them act through the joints' own motion.
 void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian) const {
-  if (layout_.clock_offset < 0 && layout_.encoder_gain < 0 && layout_.eccentricity < 0) {
-    return;
-  }
   for (Index j = 0; j < joints_; ++j) {
+    const Index gain = layout_.encoder_gain[static_cast<std::size_t>(j)];
+    const Index eccentricity = layout_.eccentricity[static_cast<std::size_t>(j)];
+    if (layout_.clock_offset < 0 && gain < 0 && eccentricity < 0) {
+      continue;
+    }
     const double q = stamped_.position[j];
     const double q_dot = stamped_.velocity[j];
     const double q_ddot = stamped_.acceleration[j];
@@ -223,20 +225,20 @@ void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian)
     const double sine = std::sin(q);
     const double cosine = std::cos(q);
     if (layout_.clock_offset >= 0) {
-      const double slope = 1.0 + state_.encoder_gain[j] - state_.eccentricity(j, 0) * sine + state_.eccentricity(j, 1) * cosine;
-      const double curvature = -state_.eccentricity(j, 0) * cosine - state_.eccentricity(j, 1) * sine;
+      const double slope = 1.0 + state_.encoder_gain[j] - state_.eccentricity(0, j) * sine + state_.eccentricity(1, j) * cosine;
+      const double curvature = -state_.eccentricity(0, j) * cosine - state_.eccentricity(1, j) * sine;
       const double third = 1.0 + state_.encoder_gain[j] - slope;
       const double jerk = stamped_.jerk[j];
       jacobian.col(layout_.clock_offset) -= column(slope * q_dot, slope * q_ddot + curvature * q_dot * q_dot,
                                                    slope * jerk + 3.0 * curvature * q_dot * q_ddot + third * q_dot * q_dot * q_dot);
     }
-    if (layout_.encoder_gain >= 0) {
-      jacobian.col(layout_.encoder_gain + j) = column(q - state_.reference[j], q_dot, q_ddot);
+    if (gain >= 0) {
+      jacobian.col(gain) = column(q - state_.reference[j], q_dot, q_ddot);
     }
-    if (layout_.eccentricity >= 0) {
-      jacobian.col(layout_.eccentricity + j) =
+    if (eccentricity >= 0) {
+      jacobian.col(eccentricity) =
           column(cosine - std::cos(state_.reference[j]), -sine * q_dot, -sine * q_ddot - cosine * q_dot * q_dot);
-      jacobian.col(layout_.eccentricity + joints_ + j) =
+      jacobian.col(eccentricity + 1) =
           column(sine - std::sin(state_.reference[j]), cosine * q_dot, cosine * q_ddot - sine * q_dot * q_dot);
     }
   }
@@ -266,20 +268,25 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian
       jacobian.col(layout_.clock_rate) = now_.time_from_middle * jacobian.col(layout_.clock_offset);
     }
   }
-  for (Index j = 0; j < joints_ && (layout_.encoder_gain >= 0 || layout_.eccentricity >= 0); ++j) {
+  for (Index j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j) + 1;
+    const Index gain = layout_.encoder_gain[k - 1];
+    const Index eccentricity = layout_.eccentricity[k - 1];
+    if (gain < 0 && eccentricity < 0) {
+      continue;
+    }
     const Eigen::Vector3d turn = twists_[k - 1].head<3>();
     const Eigen::Vector3d by_position = state_.gyroscope_matrix * rate_by_rotation_[k] * turn;
     const Eigen::Vector3d by_velocity = state_.gyroscope_matrix * to_sensor_[k].transpose() * turn;
     const double q = stamped_.position[j];
     const double q_dot = stamped_.velocity[j];
-    if (layout_.encoder_gain >= 0) {
-      jacobian.col(layout_.encoder_gain + j) = by_position * (q - state_.reference[j]) + by_velocity * q_dot;
+    if (gain >= 0) {
+      jacobian.col(gain) = by_position * (q - state_.reference[j]) + by_velocity * q_dot;
     }
-    if (layout_.eccentricity >= 0) {
-      jacobian.col(layout_.eccentricity + j) =
+    if (eccentricity >= 0) {
+      jacobian.col(eccentricity) =
           by_position * (std::cos(q) - std::cos(state_.reference[j])) - by_velocity * std::sin(q) * q_dot;
-      jacobian.col(layout_.eccentricity + joints_ + j) =
+      jacobian.col(eccentricity + 1) =
           by_position * (std::sin(q) - std::sin(state_.reference[j])) + by_velocity * std::cos(q) * q_dot;
     }
   }

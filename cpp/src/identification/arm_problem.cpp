@@ -148,6 +148,12 @@ void for_each(const ArmProblem& problem, const ArmState& state, std::size_t coun
 
 }  // namespace
 
+void add_prior(ArmPrior& prior, Index column, const Eigen::VectorXd& mean, double std) {
+  if (std::isfinite(std)) {
+    prior.terms.push_back({column, mean, Eigen::MatrixXd(Eigen::MatrixXd::Identity(mean.size(), mean.size()) / std)});
+  }
+}
+
 NormalEquations NormalEquations::zero(Index columns) {
   return {Eigen::MatrixXd::Zero(columns, columns), Eigen::VectorXd::Zero(columns), 0.0};
 }

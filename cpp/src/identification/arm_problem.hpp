@@ -24,6 +24,9 @@ struct ArmPrior {
   bool gravity_known = true;          // the magnitude is a datum, not a belief
 };
 
+// Independent columns of one standard deviation; infinite: nothing is known.
+void add_prior(ArmPrior& prior, Index column, const Eigen::VectorXd& mean, double std);
+
 // Sums over rows: information J^T W J, gradient J^T W r with r = model - reading, cost r^T W r.
 struct NormalEquations {
   Eigen::MatrixXd information;

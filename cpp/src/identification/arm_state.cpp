@@ -15,6 +15,8 @@ Index ArmLayout::claim(Index count) {
 
 void ArmLayout::claim_lines(const std::vector<ScrewAxis>& axes, const std::vector<bool>& moves) {
   lines.assign(axes.size(), -1);
+  encoder_gain = lines;
+  eccentricity = lines;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (moves[i]) {
       lines[i] = claim(line_columns(axes[i]));
@@ -78,15 +80,14 @@ std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout&
   if (layout.clock_rate >= 0) {
     put(layout.clock_rate, "clock_rate");
   }
-  const auto joints = static_cast<Index>(state.axes.size());
-  for (Index j = 0; j < joints; ++j) {
+  for (std::size_t j = 0; j < state.axes.size(); ++j) {
     const std::string joint = "joint" + std::to_string(j + 1);
-    if (layout.encoder_gain >= 0) {
-      put(layout.encoder_gain + j, joint + ".gain");
+    if (layout.encoder_gain[j] >= 0) {
+      put(layout.encoder_gain[j], joint + ".gain");
     }
-    if (layout.eccentricity >= 0) {
-      put(layout.eccentricity + j, joint + ".eccentricity_cos");
-      put(layout.eccentricity + joints + j, joint + ".eccentricity_sin");
+    if (layout.eccentricity[j] >= 0) {
+      put(layout.eccentricity[j], joint + ".eccentricity_cos");
+      put(layout.eccentricity[j] + 1, joint + ".eccentricity_sin");
     }
   }
   for (int k = 0; layout.gyroscope_matrix >= 0 && k < 9; ++k) {

@@ -19,8 +19,8 @@ struct ArmState {
   AccelerometerModel sensor;
   double clock_offset = 0.0;    // s: the sample stamped t shows the joints at t - clock_offset - (clock_rate - 1) (t - middle)
   double clock_rate = 1.0;
-  Eigen::VectorXd encoder_gain;                           // (n) relative error of the joints' encoders
-  Eigen::Matrix<double, Eigen::Dynamic, 2> eccentricity;  // (n, 2) rad: of cos(q) and sin(q)
+  Eigen::VectorXd encoder_gain;  // (n) relative error of the joints' encoders
+  Eigen::Matrix2Xd eccentricity;  // (2, n) rad: of cos(q) and sin(q)
   Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();  // rad/s
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor> gyroscope_matrix = Eigen::Matrix3d::Identity();  // reading = matrix w + bias
 };
@@ -36,15 +36,15 @@ struct ArmLayout {
   Index second_order = -1;
   Index clock_offset = -1;
   Index clock_rate = -1;
-  Index encoder_gain = -1;
-  Index eccentricity = -1;
+  std::vector<Index> encoder_gain;  // (n) one column each
+  std::vector<Index> eccentricity;  // (n) two columns each
   Index gyroscope_bias = -1;
   Index gyroscope_matrix = -1;
   Index columns = 0;
 
   // The next free column; `count` of them are taken.
   Index claim(Index count);
-  // A line's columns for every joint that moves.
+  // A line's columns for every joint that moves, and none yet for any encoder.
   void claim_lines(const std::vector<ScrewAxis>& axes, const std::vector<bool>& moves);
 };
 
@@ -66,8 +66,11 @@ void for_each_group(State& state, const ArmLayout& layout, const Visit& visit) {
   array(layout.second_order, state.sensor.second_order);
   number(layout.clock_offset, state.clock_offset);
   number(layout.clock_rate, state.clock_rate);
-  array(layout.encoder_gain, state.encoder_gain);
-  array(layout.eccentricity, state.eccentricity);
+  for (std::size_t j = 0; j < layout.lines.size(); ++j) {
+    const auto joint = static_cast<Index>(j);
+    number(layout.encoder_gain[j], state.encoder_gain[joint]);
+    visit(layout.eccentricity[j], Eigen::Map<Values>(state.eccentricity.col(joint).data(), 2));
+  }
   array(layout.gyroscope_bias, state.gyroscope_bias);
   array(layout.gyroscope_matrix, state.gyroscope_matrix);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "arm_encoder_errors.hpp"
 #include "arm_encoder_noise.hpp"
 #include "arm_layout.hpp"
 #include "arm_report.hpp"
@@ -22,6 +23,8 @@ constexpr double still = 0.05;          // standard deviations a pass may still 
 constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up; knocks show after
 constexpr int passes_that_cut = 3;        // knocks
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
+constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
+constexpr int rounds_of_encoders = 3;   // in which encoders that prove to be off are taken up
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
 
@@ -51,7 +54,7 @@ ArmState initial_state(const Recording& recording, const JointCalibration& start
   state.sensor = start.sensor.sensor;
   state.sensor.percussion_distance = start.percussion_distance;
   state.encoder_gain = Eigen::VectorXd::Zero(joints);
-  state.eccentricity = Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(joints, 2);
+  state.eccentricity = Eigen::Matrix2Xd::Zero(2, joints);
   for (Index j = 0; j < joints; ++j) {
     const auto& estimate = start.joints[static_cast<std::size_t>(j)];
     const JointType type = options.joint_types.empty() ? JointType::revolute : options.joint_types[static_cast<std::size_t>(j)];
@@ -153,7 +156,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const int first_cut = problem.rows.ties.empty() ? 1 : std::clamp(options.max_passes / 2, 1, most_ties);
   ArmResiduals now;
   InflationSearch search;
-  for (int pass = 0; pass < options.max_passes; ++pass) {
+  int rounds = 0;
+  int last = options.max_passes;
+  for (int pass = 0; pass < last; ++pass) {
     ArmSolution solution = solve(problem, state, 50, last_change);
     result.iterations += solution.iterations;
     const ArmState former = state;
@@ -169,15 +174,24 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
     result.converged = pass > first_cut + 1 && left < still && largest_step(former, state, problem.layout, covariance) < still;
+    // The first pass's noise is a guess, and nothing follows from its scores.
+    const double ratio = pass > 0 ? score_ratio(problem, parts, covariance) : 1.0;
+    const bool wrong = pass == first_cut + passes_that_cut && problem.noise.inflation * ratio > disagreement;
+    if ((result.converged || wrong || pass + 1 == last) && rounds++ < rounds_of_encoders &&
+        claim_evident_encoder_errors(problem, state, moves, options)) {
+      search = InflationSearch();
+      result.converged = false;
+      last = pass + 1 + options.max_passes;
+      continue;
+    }
     // What follows changes rows and weights, which only another pass takes in.
-    if (result.converged || pass + 1 == options.max_passes) {
+    if (result.converged || pass + 1 == last) {
       break;
     }
     if (pass < first_cut) {
       retie(problem.rows, problem.offsets);
     }
-    // The first pass's noise is a guess, and nothing follows from its scores. Before rows are cut: the parts are of these.
-    const double inflation = pass > 0 ? search.next(problem.noise.inflation, score_ratio(problem, parts, covariance)) : 1.0;
+    const double inflation = pass > 0 ? search.next(problem.noise.inflation, ratio) : 1.0;
     if (pass >= first_cut && pass < first_cut + passes_that_cut) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
@@ -218,7 +232,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.clock_offset = state.clock_offset;
   result.clock_rate = state.clock_rate;
   result.encoder_gain = state.encoder_gain;
-  result.eccentricity = state.eccentricity;
+  result.eccentricity = state.eccentricity.transpose();
   result.gyroscope_bias = state.gyroscope_bias;
   result.gyroscope_matrix = state.gyroscope_matrix;
 

@@ -39,8 +39,7 @@ ArmCase random_case(unsigned seed) {
   arm.state.clock_offset = 2e-3;
   arm.state.clock_rate = 1.0001;
   arm.state.encoder_gain = vector(joints, 1e-2);
-  arm.state.eccentricity = Eigen::Matrix<double, Eigen::Dynamic, 2>(joints, 2);
-  arm.state.eccentricity << vector(joints, 1e-2), vector(joints, 1e-2);
+  arm.state.eccentricity = vector(2 * joints, 1e-2).reshaped(2, joints);
   arm.state.gyroscope_bias = vector3(0.01);
   arm.state.gyroscope_matrix += 0.02 * Eigen::Matrix3d::Random();
   arm.layout.claim_lines(arm.state.axes, std::vector<bool>(joints, true));
@@ -52,8 +51,10 @@ ArmCase random_case(unsigned seed) {
   arm.layout.second_order = arm.layout.claim(3);
   arm.layout.clock_offset = arm.layout.claim(1);
   arm.layout.clock_rate = arm.layout.claim(1);
-  arm.layout.encoder_gain = arm.layout.claim(joints);
-  arm.layout.eccentricity = arm.layout.claim(2 * joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    arm.layout.encoder_gain[j] = arm.layout.claim(1);
+    arm.layout.eccentricity[j] = arm.layout.claim(2);
+  }
   arm.layout.gyroscope_bias = arm.layout.claim(3);
   arm.layout.gyroscope_matrix = arm.layout.claim(9);
   arm.instant = {3.0, vector(joints, 1.0), vector(joints, 1.0), vector(joints, 3.0), vector(joints, 10.0)};

@@ -34,6 +34,7 @@ namespace circlepoint {
 struct ParameterTreatment {
   bool estimated = true;  ///< false: fixed at its nominal value
   double std = std::numeric_limits<double>::infinity();  ///< of the Gaussian prior about the nominal value; infinite: free
+  bool where_evident = false;  ///< encoders' errors: only those that the data show by six standard deviations
 };
 
 struct WholeArmOptions {
@@ -47,8 +48,8 @@ struct WholeArmOptions {
   ParameterTreatment gravity{false};                  ///< m/s^2, the local magnitude; its direction is always free
   ParameterTreatment clock_offset{true, 0.005};       ///< s, sensor behind the encoders
   ParameterTreatment clock_rate{false};               ///< 1
-  ParameterTreatment encoder_gain{false};             ///< 1
-  ParameterTreatment eccentricity{false};             ///< rad
+  ParameterTreatment encoder_gain{true, 0.05, true};  ///< 1, of the moving joints
+  ParameterTreatment eccentricity{true, 0.02, true};  ///< rad, of the moving joints that turn: what is off once a turn
   ParameterTreatment gyroscope_bias{true, 0.1};       ///< rad/s
   ParameterTreatment gyroscope_matrix{true, 0.05};    ///< 1
   bool use_gyroscope = true;            ///< where there is one
