@@ -50,7 +50,7 @@ def against_truth(result: Calibration, folder: Path) -> None:
 
 
 def against_nominal(result: Calibration, arm: Arm) -> None:
-    """Print lengths beside the nominal ones, and reasons."""
+    """Print lengths beside the nominal ones, encoders that are off, and reasons."""
     rows = (result.document["dh"] or {}).get("rows") or []
     for joint, row, nominal in zip(arm.joints, rows, arm.dh.rows if arm.dh else (), strict=False):
         for key in ("a", "d"):
@@ -58,6 +58,9 @@ def against_nominal(result: Calibration, arm: Arm) -> None:
             if getattr(nominal, key) and isinstance(std, float):
                 estimate = f"{joint.name} {key} {1e3 * row[key]:8.1f} ± {1e3 * std:.1f} mm"
                 print(f"  {estimate}   nominal {1e3 * getattr(nominal, key):.2f}")
+    for entry in result.document.get("encoders", []):
+        errors = [f"{name} {e['estimate']:.5f} ± {e['std']:.5f}" for name, e in entry.items() if isinstance(e, dict)]
+        print(f"  encoder of {entry['joint']}: {', '.join(errors)}")
     for joint in result.document["joints"]:
         if joint.get("reason"):
             print(f"  {joint['name']}: {joint['reason']}")
@@ -75,13 +78,16 @@ def recording(folder: Path) -> None:
     try:
         log = read_recording([folder / name for name in names], arm)
         result = calibrate(log.recording, arm, sensor=None if preset is None else load_sensor(preset))
+        if (folder / "truth.json").is_file() and result.chain is not None:
+            against_truth(result, folder)
+            return
+        against_nominal(result, arm)
+        if log.recording.angular_velocity is not None:
+            print("  without its gyroscope:")
+            alone = cp.make_recording(log.recording.time, log.recording.joint_positions, log.recording.specific_force)
+            against_nominal(calibrate(alone, arm), arm)
     except cp.Error as error:
         print(f"  {error}")
-        return
-    if (folder / "truth.json").is_file() and result.chain is not None:
-        against_truth(result, folder)
-    else:
-        against_nominal(result, arm)
 
 
 def growth() -> None:
