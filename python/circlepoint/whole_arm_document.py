@@ -24,6 +24,7 @@ _TRIPLES = {
     "second_order": ("second_order_x", "second_order_y", "second_order_z"),
 }
 _ENCODER_ERRORS = ("gain", "eccentricity_cos", "eccentricity_sin")
+_SURE = 4.0  # standard deviations from which an encoder's error is told
 _PERCUSSION = ("percussion_distance_x", "percussion_distance_y", "percussion_distance_z")
 
 
@@ -48,7 +49,7 @@ def with_whole_arm(document: Mapping[str, Any], arm: Arm, estimate: circlepoint.
         "fit": _fit_entry(estimate),
         "hold_out": [_hold_out_entry(arm, stretch) for stretch in estimate.stretches],
         "encoders": (encoders := _encoder_entries(arm, estimate)),
-        "findings": [*document["findings"], *finding_entries(_encoder_findings(encoders))],
+        "findings": [*document["findings"], *finding_entries(_encoder_findings(arm, document, encoders))],
     }
 
 
@@ -145,28 +146,32 @@ def _encoder_entries(arm: Arm, estimate: circlepoint.WholeArmCalibration) -> lis
     return entries
 
 
-def _encoder_findings(entries: Sequence[Document]) -> list[Finding]:
+def _encoder_findings(arm: Arm, document: Mapping[str, Any], entries: Sequence[Document]) -> list[Finding]:
+    index = {joint.name: number for number, joint in enumerate(arm.joints)}
+    exports = ". DH, URDF and the other exports hold for positions corrected so" if document["complete"] else ""
     findings = []
-    told = (
-        "('encoders' in calibration.json). The lines allow for it; DH, URDF and the other exports cannot: correct "
-        "the joint's position by it"
-    )
     for entry in entries:
         joint, gain, cosine, sine = entry["joint"], *(entry[error] for error in _ENCODER_ERRORS)
-        if gain is not None:
+        q_ref = document["reference_configuration"][index[joint]]
+        if gain is not None and abs(gain["estimate"]) > _SURE * gain["std"]:
             percent, std = 1e2 * gain["estimate"], 1e2 * gain["std"]
+            moves = "turns" if arm.joints[index[joint]].type == "revolute" else "slides"
             message = (
-                f"{joint}: turns {abs(percent):.3g} % {'more' if percent > 0.0 else 'less'} than its encoder says, "
-                f"standard deviation {std:.1g} % {told}"
+                f"{joint}: {moves} {abs(percent):.3g} % {'more' if percent > 0.0 else 'less'} than its encoder says, "
+                f"standard deviation {std:.1g} %: where it reads q it is at q {gain['estimate']:+.5f} (q - "
+                f"{q_ref:.5f}){exports}"
             )
-            findings.append(Finding("encoder_gain", message, joint))
+            findings.append(Finding("encoder-gain", message, joint))
         if cosine is not None and sine is not None:
             off = 1e3 * math.hypot(cosine["estimate"], sine["estimate"])
             std = 1e3 * math.hypot(cosine["std"], sine["std"]) / math.sqrt(2.0)
+            if off < _SURE * std:
+                continue
             message = (
                 f"{joint}: once a turn its position is off what its encoder says by {off:.2g} mrad, standard "
-                f"deviation {std:.1g} mrad: the encoder is off its axis, or what the joint carries gives way to "
-                f"gravity {told}"
+                f"deviation {std:.1g} mrad, as if the encoder sat off its axis or what the joint carries gave way to "
+                f"gravity: where it reads q it is at q {cosine['estimate']:+.5f} (cos q - {math.cos(q_ref):.5f}) "
+                f"{sine['estimate']:+.5f} (sin q - {math.sin(q_ref):.5f}){exports}"
             )
             findings.append(Finding("eccentricity", message, joint))
     return findings

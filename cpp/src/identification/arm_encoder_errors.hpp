@@ -12,7 +12,7 @@ namespace circlepoint {
 void claim_encoder_errors(ArmProblem& problem, const ArmState& state, const std::vector<bool>& moves, const WholeArmOptions& options);
 
 // Columns and priors for those that are to be estimated where the data show them, by six standard deviations at this state: the
-// most evident first, then the next beside it (docs/method, eq. (M33)). Whether there are any.
+// most evident first, then the next beside it (docs/method, eq. (M34)). Whether there are any.
 bool claim_evident_encoder_errors(ArmProblem& problem, const ArmState& state, const std::vector<bool>& moves,
                                   const WholeArmOptions& options);
 

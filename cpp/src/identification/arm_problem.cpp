@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <thread>
 
 namespace circlepoint {
@@ -220,6 +221,19 @@ MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEqua
   return reduced;
 }
 
+NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part) {
+  if (part.offsets.empty()) {
+    return part.equations;
+  }
+  ArmProblem alone;
+  alone.layout = problem.layout;
+  alone.offsets = problem.offsets(part.offsets);
+  add_parameters(alone.rows, problem.rows.offset_covariance(part.offsets, part.offsets));
+  PartEquations renumbered = part;
+  std::iota(renumbered.offsets.begin(), renumbered.offsets.end(), Index{0});
+  return marginal(alone, {renumbered}).equations;
+}
+
 std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state) {
   const std::size_t stretches = problem.rows.stretches.size();
   std::vector<PartEquations> parts(stretches + problem.rows.dwells.size());
@@ -273,13 +287,16 @@ NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state
 }
 
 double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance) {
-  const Index columns = problem.layout.columns;
+  const auto shares_counts = [](const MovingStretch& stretch) { return !stretch.errors.empty() && !stretch.offsets.empty(); };
+  if (std::any_of(problem.rows.stretches.begin(), problem.rows.stretches.end(), shares_counts)) {
+    return 1.0;
+  }
   double seen = 0.0;
   double expected = 0.0;
   for (std::size_t i = 0; i < problem.rows.stretches.size(); ++i) {
-    const Eigen::VectorXd gradient = parts[i].equations.gradient.head(columns);
-    const Eigen::MatrixXd leverage = covariance * parts[i].equations.information.topLeftCorner(columns, columns);
-    seen += gradient.dot(covariance * gradient);
+    const NormalEquations part = marginal_part(problem, parts[i]);
+    const Eigen::MatrixXd leverage = covariance * part.information;
+    seen += part.gradient.dot(covariance * part.gradient);
     expected += leverage.trace() - leverage.cwiseProduct(leverage.transpose()).sum();
   }
   return expected > 0.0 ? seen / expected : 1.0;

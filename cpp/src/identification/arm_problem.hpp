@@ -74,9 +74,12 @@ struct MarginalEquations {
   Eigen::VectorXd offsets;  // (K) that minimise the cost, for the layout's columns as they are
 };
 MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts);
+// One part so, as if no other knew its offsets.
+NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part);
 
 // How much larger the stretches' scores (gradients at the estimate) are than the noise makes them: sum g^T C g over
-// sum tr C (H - H C H), with the estimate's covariance C (docs/method, eq. (M31)). One if noise and model hold.
+// sum tr C (H - H C H), with the estimate's covariance C (docs/method, eq. (M31)). One if noise and model hold, and where coarse
+// encoders' rests are shared: what the stretches have in common then outweighs what each says alone.
 double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance);
 
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state);

@@ -81,22 +81,6 @@ ArmProblem without_rows(const ArmProblem& problem) {
   return empty;
 }
 
-// A part in the layout's columns, its offsets minimised over as if no other part knew them.
-NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part) {
-  ArmProblem alone;
-  alone.layout = problem.layout;
-  const auto count = static_cast<Index>(part.offsets.size());
-  alone.offsets.resize(count);
-  const std::vector<Index>& offsets = part.offsets;
-  PartEquations renumbered = part;
-  std::iota(renumbered.offsets.begin(), renumbered.offsets.end(), Index{0});
-  if (count > 0) {
-    alone.offsets = problem.offsets(offsets);
-    add_parameters(alone.rows, problem.rows.offset_covariance(offsets, offsets));
-  }
-  return marginal(alone, {renumbered}).equations;
-}
-
 // The state the estimate would have been without one part, to first order; none where the rest does not determine it.
 std::optional<ArmState> without(const ArmProblem& problem, const ArmState& state, const PartEquations& part, const Eigen::MatrixXd& information) {
   const NormalEquations mine = marginal_part(problem, part);

@@ -24,7 +24,6 @@ constexpr int most_ties = 6;            // passes in which what the readings tel
 constexpr int passes_that_cut = 3;        // knocks
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
 constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
-constexpr int rounds_of_encoders = 3;   // in which encoders that prove to be off are taken up
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
 
@@ -33,6 +32,11 @@ void validate(const Recording& recording, const WholeArmOptions& options) {
   require(options.cutoff >= 0.0 && options.cutoff < 0.5 * recording.sample_rate,
           "cutoff is " + std::to_string(options.cutoff) + " Hz; give 0 (chosen) or less than half the sample rate of " +
               std::to_string(recording.sample_rate) + " Hz");
+  for (const ParameterTreatment* treatment :
+       {&options.bias, &options.scale, &options.misalignment, &options.percussion_distance, &options.second_order, &options.gravity,
+        &options.clock_offset, &options.clock_rate, &options.gyroscope_bias, &options.gyroscope_matrix}) {
+    require(!treatment->where_evident, "where_evident is for encoder_gain and eccentricity only; set estimated and std of the others");
+  }
   require(options.max_passes > 0, "max_passes is " + std::to_string(options.max_passes) + "; give 1 or more");
 }
 
@@ -156,7 +160,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const int first_cut = problem.rows.ties.empty() ? 1 : std::clamp(options.max_passes / 2, 1, most_ties);
   ArmResiduals now;
   InflationSearch search;
-  int rounds = 0;
+  int since = 0;  // the pass after the columns last changed
   int last = options.max_passes;
   for (int pass = 0; pass < last; ++pass) {
     ArmSolution solution = solve(problem, state, 50, last_change);
@@ -173,15 +177,17 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     now = residuals(problem, state);
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
-    result.converged = pass > first_cut + 1 && left < still && largest_step(former, state, problem.layout, covariance) < still;
-    // The first pass's noise is a guess, and nothing follows from its scores.
-    const double ratio = pass > 0 ? score_ratio(problem, parts, covariance) : 1.0;
-    const bool wrong = pass == first_cut + passes_that_cut && problem.noise.inflation * ratio > disagreement;
-    if ((result.converged || wrong || pass + 1 == last) && rounds++ < rounds_of_encoders &&
+    const int cutting = since == 0 ? first_cut : since + 1;
+    result.converged = pass > cutting + 1 && left < still && largest_step(former, state, problem.layout, covariance) < still;
+    // The first pass's noise is a guess, or of other columns, and nothing follows from its scores.
+    const double ratio = pass > since ? score_ratio(problem, parts, covariance) : 1.0;
+    const bool wrong = pass == cutting + passes_that_cut && problem.noise.inflation * ratio > disagreement;
+    if ((result.converged || wrong || pass + 1 == last) && pass > since &&
         claim_evident_encoder_errors(problem, state, moves, options)) {
       search = InflationSearch();
       result.converged = false;
-      last = pass + 1 + options.max_passes;
+      since = pass + 1;
+      last = since + options.max_passes;
       continue;
     }
     // What follows changes rows and weights, which only another pass takes in.
@@ -191,8 +197,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     if (pass < first_cut) {
       retie(problem.rows, problem.offsets);
     }
-    const double inflation = pass > 0 ? search.next(problem.noise.inflation, ratio) : 1.0;
-    if (pass >= first_cut && pass < first_cut + passes_that_cut) {
+    const double inflation = pass > since ? search.next(problem.noise.inflation, ratio) : 1.0;
+    if (pass >= cutting && pass < cutting + passes_that_cut) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
       if (cut > 0) {
@@ -203,8 +209,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     problem.noise.encoder.clear();
     const ArmNoise before = std::move(problem.noise);
     problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns),
-                                   inflation, encoder_covariances(problem, state), pass > 0 ? &before : nullptr,
-                                   pass > std::max(passes_to_settle, first_cut + passes_that_cut - 1));
+                                   inflation, encoder_covariances(problem, state), pass > since ? &before : nullptr,
+                                   pass > std::max(since + passes_to_settle, cutting + passes_that_cut - 1));
   }
   result.noise_inflation = problem.noise.inflation;
   double squares = now.dwells_normalized.squaredNorm();

@@ -15,6 +15,7 @@ _methods = {
     "velocity": "velocity method: static sweep for the axis, once integrated acceleration for its centre",
     "joint": "joint by joint: one regression for each test, other joints' yielding corrected by their encoders",
 }
+_encoder_codes = ("encoder-gain", "eccentricity")
 
 
 class KeyNumber(NamedTuple):
@@ -54,7 +55,9 @@ def verdict(document: Document) -> str:
     sentence += "."
     rms, _ = predicted_end_point_std(document)
     if rms is not None:
-        sentence += f" Over the workspace the end-point is predicted to {format_std(1e3 * rms)} mm rms."
+        sentence += f" Over the workspace the end-point is predicted to {format_std(1e3 * rms)} mm rms"
+        off = sorted({f["joint"] for f in document.get("findings") or [] if f.get("code") in _encoder_codes})
+        sentence += f", once the positions of {_listed(off)} are corrected as the findings say." if off else "."
     if not document.get("complete", True):
         sentence += " The calibration is marked incomplete: see the findings."
     return sentence
