@@ -158,8 +158,8 @@ def _encoder_findings(arm: Arm, document: Mapping[str, Any], entries: Sequence[D
             moves = "turns" if arm.joints[index[joint]].type == "revolute" else "slides"
             message = (
                 f"{joint}: {moves} {abs(percent):.3g} % {'more' if percent > 0.0 else 'less'} than its encoder says, "
-                f"standard deviation {std:.1g} %: where it reads q it is at q {gain['estimate']:+.5f} (q - "
-                f"{q_ref:.5f}){exports}"
+                f"standard deviation {std:.1g} %: where it reads q it is at "
+                f"q {_signed(gain)} (q - q_ref), q_ref = {q_ref:.5g}{exports}"
             )
             findings.append(Finding("encoder-gain", message, joint))
         if cosine is not None and sine is not None:
@@ -170,11 +170,16 @@ def _encoder_findings(arm: Arm, document: Mapping[str, Any], entries: Sequence[D
             message = (
                 f"{joint}: once a turn its position is off what its encoder says by {off:.2g} mrad, standard "
                 f"deviation {std:.1g} mrad, as if the encoder sat off its axis or what the joint carries gave way to "
-                f"gravity: where it reads q it is at q {cosine['estimate']:+.5f} (cos q - {math.cos(q_ref):.5f}) "
-                f"{sine['estimate']:+.5f} (sin q - {math.sin(q_ref):.5f}){exports}"
+                f"gravity: where it reads q it is at q {_signed(cosine)} (cos q - cos q_ref) {_signed(sine)} (sin q - "
+                f"sin q_ref), q_ref = {q_ref:.5g}{exports}"
             )
             findings.append(Finding("eccentricity", message, joint))
     return findings
+
+
+def _signed(entry: Document) -> str:
+    value = entry["estimate"]
+    return f"{'-' if value < 0.0 else '+'} {abs(value):.5f}"
 
 
 def _hold_out_entry(arm: Arm, stretch: circlepoint.StretchResidual) -> Document:
