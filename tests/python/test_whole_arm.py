@@ -253,6 +253,16 @@ def test_stretches_that_disagree_with_each_other_widen_the_intervals():
     assert np.mean((errors / std) ** 2) < 2.5
 
 
+def test_what_the_model_lacks_is_not_averaged_out_by_repeating_the_motion():
+    recording = recorded(free(20.0) * 4, noise=0.002)
+    positions = np.array(recording.joint_positions)
+    positions[:, 1] += 2e-3 * np.cos(8.0 * positions[:, 1])  # the same error in each of the four rounds
+    result = estimate(cp.make_recording(recording.time, positions, recording.specific_force))
+    errors, std = errors_and_std(result, chain_of(LINES))
+    assert result.noise_inflation > 3.0
+    assert np.mean((errors / std) ** 2) < 3.0  # 9 if each round counted by itself
+
+
 @pytest.mark.parametrize(
     ("field", "bad", "words"),
     [
