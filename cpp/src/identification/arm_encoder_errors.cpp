@@ -18,20 +18,39 @@ struct EncoderError {
 
 using EncoderErrors = std::vector<EncoderError>;
 
+const ParameterTreatment& treatment(const EncoderError& error, const WholeArmOptions& options) {
+  return error.once_a_turn ? options.eccentricity : options.encoder_gain;
+}
+
+// The first of its columns, or -1.
+const Index& column_of(const EncoderError& error, const ArmLayout& layout) {
+  return (error.once_a_turn ? layout.eccentricity : layout.encoder_gain)[error.joint];
+}
+Index& column_of(const EncoderError& error, ArmLayout& layout) {
+  return (error.once_a_turn ? layout.eccentricity : layout.encoder_gain)[error.joint];
+}
+
+Index size_of(const EncoderError& error) { return error.once_a_turn ? 2 : 1; }
+
+std::vector<Index> columns_of(const EncoderError& error, const ArmLayout& layout) {
+  std::vector<Index> columns(static_cast<std::size_t>(size_of(error)));
+  std::iota(columns.begin(), columns.end(), column_of(error, layout));
+  return columns;
+}
+
 // Those without columns that are treated so.
 EncoderErrors candidates(const ArmLayout& layout, const ArmState& state, const std::vector<bool>& moves, const WholeArmOptions& options,
                          bool where_evident) {
   EncoderErrors errors;
-  const auto treated = [&](const ParameterTreatment& treatment) {
-    return treatment.estimated && treatment.std > 0.0 && treatment.where_evident == where_evident;
-  };
   for (std::size_t joint = 0; joint < moves.size(); ++joint) {
-    if (moves[joint] && layout.encoder_gain[joint] < 0 && treated(options.encoder_gain)) {
-      errors.push_back({joint, false});
-    }
-    const bool turns = state.axes[joint].type == JointType::revolute;
-    if (moves[joint] && turns && layout.eccentricity[joint] < 0 && treated(options.eccentricity)) {
-      errors.push_back({joint, true});
+    for (const bool once_a_turn : {false, true}) {
+      const EncoderError error{joint, once_a_turn};
+      const ParameterTreatment& treated = treatment(error, options);
+      const bool turns = state.axes[joint].type == JointType::revolute;
+      if (moves[joint] && (turns || !once_a_turn) && column_of(error, layout) < 0 && treated.estimated && treated.std > 0.0 &&
+          treated.where_evident == where_evident) {
+        errors.push_back(error);
+      }
     }
   }
   return errors;
@@ -39,16 +58,10 @@ EncoderErrors candidates(const ArmLayout& layout, const ArmState& state, const s
 
 void claim(ArmProblem& problem, const EncoderErrors& errors, const WholeArmOptions& options) {
   for (const EncoderError& error : errors) {
-    const Index size = error.once_a_turn ? 2 : 1;
-    const Index column = problem.layout.claim(size);
-    (error.once_a_turn ? problem.layout.eccentricity : problem.layout.encoder_gain)[error.joint] = column;
-    add_prior(problem.prior, column, Eigen::VectorXd::Zero(size), (error.once_a_turn ? options.eccentricity : options.encoder_gain).std);
+    const Index column = problem.layout.claim(size_of(error));
+    column_of(error, problem.layout) = column;
+    add_prior(problem.prior, column, Eigen::VectorXd::Zero(size_of(error)), treatment(error, options).std);
   }
-}
-
-std::vector<Index> columns_of(const EncoderError& error, const ArmLayout& layout) {
-  const Index first = (error.once_a_turn ? layout.eccentricity : layout.encoder_gain)[error.joint];
-  return error.once_a_turn ? std::vector<Index>{first, first + 1} : std::vector<Index>{first};
 }
 
 // How much the sum of squares falls if these columns are estimated beside the others, whose covariance is given.

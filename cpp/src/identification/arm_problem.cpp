@@ -286,29 +286,6 @@ NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state
   return all;
 }
 
-double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance) {
-  const auto shares_counts = [](const MovingStretch& stretch) { return !stretch.errors.empty() && !stretch.offsets.empty(); };
-  if (std::any_of(problem.rows.stretches.begin(), problem.rows.stretches.end(), shares_counts)) {
-    return 1.0;
-  }
-  std::vector<NormalEquations> motions;
-  const std::vector<std::size_t> motion = repeated_motions(problem.rows);
-  for (std::size_t i = 0; i < motion.size(); ++i) {
-    if (motion[i] == motions.size()) {
-      motions.push_back(NormalEquations::zero(problem.layout.columns));
-    }
-    motions[motion[i]] += marginal_part(problem, parts[i]);
-  }
-  double seen = 0.0;
-  double expected = 0.0;
-  for (const NormalEquations& all : motions) {
-    const Eigen::MatrixXd leverage = covariance * all.information;
-    seen += all.gradient.dot(covariance * all.gradient);
-    expected += leverage.trace() - leverage.cwiseProduct(leverage.transpose()).sum();
-  }
-  return expected > 0.0 ? seen / expected : 1.0;
-}
-
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
   const std::size_t stretches = problem.rows.stretches.size();
   const Index channels = problem.rows.channels;

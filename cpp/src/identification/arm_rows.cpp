@@ -267,42 +267,6 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
   return piece;
 }
 
-std::vector<std::size_t> repeated_motions(const ArmRows& rows) {
-  constexpr double near = 0.05;    // of a joint's travel in the whole recording
-  constexpr double still = 1e-3;   // rad or m
-  constexpr double as_long = 0.2;  // of the number of rows
-  constexpr int places = 5;
-  std::vector<Eigen::MatrixXd> paths;  // (places, n) of the first stretch of each motion
-  std::vector<double> lengths;
-  std::vector<std::size_t> motions;
-  Eigen::ArrayXd lowest;
-  Eigen::ArrayXd highest;
-  for (const MovingStretch& stretch : rows.stretches) {
-    const Eigen::ArrayXd low = stretch.position.colwise().minCoeff().transpose();
-    const Eigen::ArrayXd high = stretch.position.colwise().maxCoeff().transpose();
-    lowest = lowest.size() == 0 ? low : lowest.min(low).eval();
-    highest = highest.size() == 0 ? high : highest.max(high).eval();
-  }
-  for (const MovingStretch& stretch : rows.stretches) {
-    const Eigen::ArrayXi at = Eigen::ArrayXi::LinSpaced(places, 0, static_cast<int>(stretch.rows() - 1));
-    const Eigen::MatrixXd path = stretch.position(at, Eigen::all);
-    const auto length = static_cast<double>(stretch.rows());
-    std::size_t motion = 0;
-    while (motion < paths.size() && (std::abs(length - lengths[motion]) > as_long * lengths[motion] ||
-                                     ((path - paths[motion]).cwiseAbs().colwise().maxCoeff().transpose().array() >
-                                      (near * (highest - lowest)).max(still))
-                                         .any())) {
-      ++motion;
-    }
-    if (motion == paths.size()) {
-      paths.push_back(path);
-      lengths.push_back(length);
-    }
-    motions.push_back(motion);
-  }
-  return motions;
-}
-
 void add_term(MovingStretch& stretch, const OffsetTerm& term, const Eigen::VectorXd& position, const Eigen::VectorXd& velocity,
               const Eigen::VectorXd& acceleration) {
   const auto append = [&](Eigen::MatrixXd& shapes, const Eigen::VectorXd& shape) {

@@ -93,9 +93,6 @@ struct ArmRows {
 // The given rows of a stretch.
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);
 
-// Which motion each stretch is, numbered by first appearance: stretches whose joints go the same way in the same time are of one.
-std::vector<std::size_t> repeated_motions(const ArmRows& rows);
-
 // Adds a term of constant or given shape.
 void add_term(MovingStretch& stretch, const OffsetTerm& term, const Eigen::VectorXd& position, const Eigen::VectorXd& velocity,
               const Eigen::VectorXd& acceleration);

@@ -9,6 +9,7 @@
 #include "arm_layout.hpp"
 #include "arm_report.hpp"
 #include "arm_result.hpp"
+#include "arm_scores.hpp"
 #include "arm_solve.hpp"
 #include "arm_start.hpp"
 #include "arm_yield.hpp"

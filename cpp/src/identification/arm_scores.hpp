@@ -1,0 +1,16 @@
+#pragma once
+// Whether the motions disagree with each other by more than the noise says.
+
+#include <vector>
+
+#include "arm_problem.hpp"
+
+namespace circlepoint {
+
+// How much larger the motions' scores (gradients at the estimate, summed over stretches that repeat one motion: what the model lacks
+// repeats with it) are than the noise makes them: sum g^T C g over
+// sum tr C (H - H C H), with the estimate's covariance C (docs/method, eq. (M31)). One if noise and model hold, and where coarse
+// encoders' rests are shared: what the stretches have in common then outweighs what each says alone.
+double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance);
+
+}  // namespace circlepoint
