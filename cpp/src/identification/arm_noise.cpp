@@ -19,6 +19,10 @@ constexpr Index rows_per_coefficient = 25;
 constexpr double knock = 6.0;          // standard deviations
 constexpr double model_failure = 0.2;  // share of rows beyond which knocks are none
 
+AutoregressiveModel of_order(const AutoregressiveModel& model, Index order) {
+  return {model.coefficients.topLeftCorner(order + 1, order), model.innovation_std.head(order + 1)};
+}
+
 // The order whose coefficients the samples pay for (Schwarz' criterion): each one fitted in vain costs precision.
 AutoregressiveModel with_fewest_coefficients(const AutoregressiveModel& model, Index samples) {
   const auto count = static_cast<double>(samples);
@@ -31,7 +35,7 @@ AutoregressiveModel with_fewest_coefficients(const AutoregressiveModel& model, I
       best = order;
     }
   }
-  return {model.coefficients.topLeftCorner(best + 1, best), model.innovation_std.head(best + 1)};
+  return of_order(model, best);
 }
 
 // The common low-pass leaves white noise neither white nor, once thinned out, well said by few coefficients: at low frequency,
@@ -43,8 +47,9 @@ AutoregressiveModel filtered_white(const ArmRows& rows) {
   return autoregressive_of(covariance / covariance[0]);
 }
 
+// With `before`, of the orders it has.
 MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size_t>& members, Index channels,
-                     const AutoregressiveModel& filter) {
+                     const AutoregressiveModel& filter, const MotionNoise* before) {
   MotionNoise noise;
   Index count = 0;
   for (const std::size_t member : members) {
@@ -69,7 +74,10 @@ MotionNoise fit_kind(const StretchResiduals& moving, const std::vector<std::size
       for (Eigen::VectorXd& segment : segments) {
         whiten(filter, segment);
       }
-      const AutoregressiveModel beyond = with_fewest_coefficients(fit_autoregressive(segments, order), count);
+      const AutoregressiveModel full = fit_autoregressive(segments, order);
+      const auto held = [&] { return before->channels[noise.channels.size()].order() - filter.order(); };
+      const AutoregressiveModel beyond =
+          before != nullptr ? of_order(full, std::clamp<Index>(held(), 0, full.order())) : with_fewest_coefficients(full, count);
       noise.channels.push_back(in_series(filter, beyond));
       // The innovations' size by the residuals themselves: the pooled autocovariance errs on the wide side.
       double squares = 0.0;
@@ -267,11 +275,12 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
     const bool coarse = std::any_of(members.begin(), members.end(), [&](std::size_t i) { return encoders[i].size() > 0; });
     if (coarse) {
       MotionNoise start = before != nullptr ? before->kinds[static_cast<std::size_t>(kind)]
-                                            : quietest(fit_kind(moving, members, rows.channels, filter));
+                                            : quietest(fit_kind(moving, members, rows.channels, filter, nullptr));
       scale(start, 1.0 / start.factor);
       noise.kinds.push_back(settled ? start : fit_kind_beside_encoders(moving, members, encoders, start, filter));
     } else {
-      noise.kinds.push_back(fit_kind(moving, members, rows.channels, filter));
+      const bool hold = settled && before != nullptr;
+      noise.kinds.push_back(fit_kind(moving, members, rows.channels, filter, hold ? &before->kinds[static_cast<std::size_t>(kind)] : nullptr));
     }
     scale(noise.kinds.back(), total / std::max(total - parameters, 1.0) * repetition_factor(rows, members) * inflation);
   }
