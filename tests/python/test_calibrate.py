@@ -165,7 +165,8 @@ def test_lines_are_given_at_the_reference_configuration_asked_for(recording):
     for joint, theirs in zip(asked.joints.joints, carried.axes, strict=True):
         std = np.sqrt(np.diag(joint.axis.covariance))
         difference = circlepoint.local_coordinates(joint.axis.screw.line, theirs.line)
-        assert np.all(np.abs(difference) < 0.05 * std)
+        # Rows at the limit of a knock may be cut in one and not in the other.
+        assert np.all(np.abs(difference) < 0.2 * std)
 
 
 @pytest.mark.parametrize(

@@ -49,13 +49,18 @@ void fill_by_offset(const ByJoint& by_joint, const MovingStretch& stretch, Index
   }
 }
 
+// Columns of a stretch's system: the layout's, its offsets and, last, the residual.
+Index system_columns(const ArmProblem& problem, const MovingStretch& stretch) {
+  return problem.layout.columns + static_cast<Index>(stretch.offsets.size()) + 1;
+}
+
 // Rows (channel-major) of Jacobian, last column residual.
-Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predictor, const MovingStretch& stretch) {
+void fill_system(const ArmProblem& problem, ArmPredictor& predictor, const MovingStretch& stretch, Eigen::MatrixXd& system) {
   const Index rows = stretch.rows();
   const Index columns = problem.layout.columns;
   const auto terms = static_cast<Index>(stretch.offsets.size());
   const Index last = columns + terms;
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows * problem.rows.channels, last + 1);
+  system.setZero(rows * problem.rows.channels, last + 1);
   Eigen::Matrix3Xd jacobian(3, columns);
   JointInstant instant;
   Eigen::MatrixXd by_offset(3, terms);
@@ -78,7 +83,20 @@ Eigen::MatrixXd stretch_system(const ArmProblem& problem, ArmPredictor& predicto
       }
     }
   }
-  return system;
+}
+
+// Model - reading of a stretch, (rows, channels).
+Eigen::MatrixXd differences(const ArmProblem& problem, ArmPredictor& predictor, const MovingStretch& stretch) {
+  Eigen::MatrixXd result(stretch.rows(), problem.rows.channels);
+  JointInstant instant;
+  for (Index row = 0; row < stretch.rows(); ++row) {
+    set_instant(stretch, row, problem, instant);
+    result.row(row).head<3>() = predictor.reading(instant) - stretch.reading.row(row).head<3>().transpose();
+    if (problem.rows.channels == 6) {
+      result.row(row).tail<3>() = predictor.angular_rate() - stretch.reading.row(row).tail<3>().transpose();
+    }
+  }
+  return result;
 }
 
 struct DwellSystem {
@@ -126,14 +144,20 @@ NormalEquations normal_equations(const Eigen::MatrixXd& system) {
   return equations;
 }
 
-// Calls work(predictor, i) for i in [0, count) on the problem's threads.
+// What a thread works with.
+struct Workspace {
+  ArmPredictor predictor;
+  Eigen::MatrixXd system;
+};
+
+// Calls work(workspace, i) for i in [0, count) on the problem's threads.
 template <class Work>
 void for_each(const ArmProblem& problem, const ArmState& state, std::size_t count, const Work& work) {
   std::atomic<std::size_t> next{0};
   const auto run = [&] {
-    ArmPredictor predictor(state, problem.layout);
+    Workspace workspace{ArmPredictor(state, problem.layout), {}};
     for (std::size_t i = next++; i < count; i = next++) {
-      work(predictor, i);
+      work(workspace, i);
     }
   };
   const auto threads = std::min<std::size_t>(problem.threads, count);
@@ -144,6 +168,46 @@ void for_each(const ArmProblem& problem, const ArmState& state, std::size_t coun
   run();
   for (std::thread& thread : others) {
     thread.join();
+  }
+}
+
+// Whether the systems kept are what the model gives at the state. So small a step of the offsets alone they follow themselves: the
+// second order, 1e-10 of what gravity does, is nothing.
+bool holds(KeptSystems& kept, const ArmProblem& problem, const Eigen::VectorXd& state) {
+  constexpr double carried = 1e-5;  // rad or m
+  if (kept.state.size() != state.size() || kept.state != state) {
+    return false;
+  }
+  const Eigen::VectorXd step = problem.offsets - kept.offsets;
+  if (step.size() == 0 || step.isZero(0.0)) {
+    return true;
+  }
+  if (step.cwiseAbs().maxCoeff() > carried) {
+    return false;
+  }
+  for (std::size_t i = 0; i < kept.stretches.size(); ++i) {
+    const std::vector<OffsetTerm>& terms = problem.rows.stretches[i].offsets;
+    Eigen::MatrixXd& system = kept.stretches[i];
+    for (std::size_t k = 0; system.size() > 0 && k < terms.size(); ++k) {
+      system.rightCols<1>() += step[terms[k].parameter] * system.col(problem.layout.columns + static_cast<Index>(k));
+    }
+  }
+  kept.offsets = problem.offsets;
+  return true;
+}
+
+// Makes room for the systems of as many stretches as may be kept.
+void make_room(KeptSystems& kept, const ArmProblem& problem) {
+  constexpr Index most_kept = (Index{128} << 20) / static_cast<Index>(sizeof(double));
+  kept.stretches.resize(problem.rows.stretches.size());
+  Index left = most_kept;
+  for (std::size_t i = 0; i < kept.stretches.size(); ++i) {
+    const MovingStretch& stretch = problem.rows.stretches[i];
+    const Index rows = stretch.rows() * problem.rows.channels;
+    const Index columns = system_columns(problem, stretch);
+    const bool keep = rows * columns <= left;
+    kept.stretches[i].resize(keep ? rows : 0, keep ? columns : 0);
+    left -= kept.stretches[i].size();
   }
 }
 
@@ -234,7 +298,7 @@ NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& pa
   return marginal(alone, {renumbered}).equations;
 }
 
-std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state) {
+std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept) {
   const std::size_t stretches = problem.rows.stretches.size();
   std::vector<PartEquations> parts(stretches + problem.rows.dwells.size());
   const auto finish = [&parts](std::size_t i, const Eigen::MatrixXd& system, const std::vector<OffsetTerm>& offsets) {
@@ -243,16 +307,31 @@ std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmSt
       parts[i].offsets.push_back(term.parameter);
     }
   };
-  for_each(problem, state, parts.size(), [&](ArmPredictor& predictor, std::size_t i) {
+  const Eigen::VectorXd flat = flattened(state, problem.layout);
+  const bool known = kept != nullptr && holds(*kept, problem, flat);
+  if (kept != nullptr && !known) {
+    make_room(*kept, problem);
+    kept->state = flat;
+    kept->offsets = problem.offsets;
+  }
+  for_each(problem, state, parts.size(), [&](Workspace& workspace, std::size_t i) {
     if (i < stretches) {
       const MovingStretch& stretch = problem.rows.stretches[i];
-      Eigen::MatrixXd system = stretch_system(problem, predictor, stretch);
-      whiten_stretch(problem.noise, problem.rows, i, system);
-      finish(i, system, stretch.offsets);
+      const bool keep = kept != nullptr && kept->stretches[i].size() > 0;
+      if (!keep) {
+        fill_system(problem, workspace.predictor, stretch, workspace.system);
+      } else {
+        if (!known) {
+          fill_system(problem, workspace.predictor, stretch, kept->stretches[i]);
+        }
+        workspace.system = kept->stretches[i];
+      }
+      whiten_stretch(problem.noise, problem.rows, i, workspace.system);
+      finish(i, workspace.system, stretch.offsets);
       return;
     }
     const DwellRow& dwell = problem.rows.dwells[i - stretches];
-    DwellSystem system = dwell_system(problem, predictor, dwell);
+    DwellSystem system = dwell_system(problem, workspace.predictor, dwell);
     system.variance.diagonal() += problem.noise.dwell_excess.cwiseAbs2();
     const Eigen::LLT<Eigen::MatrixXd> factor(system.variance);
     factor.matrixL().solveInPlace(system.rows);
@@ -286,7 +365,7 @@ NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state
   return all;
 }
 
-ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
+ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSystems* kept) {
   const std::size_t stretches = problem.rows.stretches.size();
   const Index channels = problem.rows.channels;
   const auto dwells = static_cast<Index>(problem.rows.dwells.size());
@@ -296,16 +375,13 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state) {
   result.dwells.resize(dwells, channels);
   result.dwell_variance.resize(dwells, channels);
   result.dwells_normalized.resize(dwells, channels);
-  for_each(problem, state, stretches, [&](ArmPredictor& predictor, std::size_t i) {
+  const bool known = kept != nullptr && holds(*kept, problem, flattened(state, problem.layout));
+  for_each(problem, state, stretches, [&](Workspace& workspace, std::size_t i) {
     const MovingStretch& stretch = problem.rows.stretches[i];
-    JointInstant instant;
-    result.moving[i].resize(stretch.rows(), channels);
-    for (Index row = 0; row < stretch.rows(); ++row) {
-      set_instant(stretch, row, problem, instant);
-      result.moving[i].row(row).head<3>() = predictor.reading(instant) - stretch.reading.row(row).head<3>().transpose();
-      if (channels == 6) {
-        result.moving[i].row(row).tail<3>() = predictor.angular_rate() - stretch.reading.row(row).tail<3>().transpose();
-      }
+    if (known && kept->stretches[i].size() > 0) {
+      result.moving[i] = kept->stretches[i].rightCols<1>().reshaped(stretch.rows(), channels);
+    } else {
+      result.moving[i] = differences(problem, workspace.predictor, stretch);
     }
     Eigen::MatrixXd column = result.moving[i].reshaped(result.moving[i].size(), 1);
     whiten_stretch(problem.noise, problem.rows, i, column);

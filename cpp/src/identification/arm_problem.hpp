@@ -63,8 +63,18 @@ struct ArmResiduals {
   Eigen::MatrixXd dwells_normalized;  // (D, channels)
 };
 
+// What the model gave last, before it is weighed: most of an evaluation's work, and the same while only the noise changes.
+// Whoever changes rows or columns says forget().
+struct KeptSystems {
+  Eigen::VectorXd state;                   // they hold for, flattened
+  Eigen::VectorXd offsets;
+  std::vector<Eigen::MatrixXd> stretches;  // their systems in order; without elements: too large to keep
+
+  void forget() { state.resize(0); }
+};
+
 // Data part: stretches first, in order, then each dwell.
-std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state);
+std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr);
 NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state);
 // The part of it that the magnitude of gravity makes, which counts as data where that is known.
 NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state);
@@ -77,6 +87,6 @@ MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEqua
 // One part so, as if no other knew its offsets.
 NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part);
 
-ArmResiduals residuals(const ArmProblem& problem, const ArmState& state);
+ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr);
 
 }  // namespace circlepoint

@@ -325,7 +325,7 @@ void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift) {
 }
 
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
-  constexpr double widest = 10.0;
+  constexpr double widest = 12.0;
   constexpr double narrowest = 4.0;
   constexpr double harmonics = 20.0;
   constexpr double tolerated = 0.1;   // rad/s^2 of differentiated counts

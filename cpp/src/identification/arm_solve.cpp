@@ -13,26 +13,11 @@ namespace {
 // A state as a flat block for Ceres: lines as direction and point, then all groups.
 class FlatState {
  public:
-  FlatState(const ArmState& shape, const ArmLayout& layout) : shape_(shape), layout_(layout) {
-    size_ = 6 * static_cast<Index>(shape.axes.size());
-    for_each_group(shape, layout, [this](Index, const auto& group) { size_ += group.size(); });
-  }
+  FlatState(const ArmState& shape, const ArmLayout& layout) : shape_(shape), layout_(layout), size_(flattened(shape, layout).size()) {}
 
   [[nodiscard]] int size() const { return static_cast<int>(size_); }
 
-  void write(const ArmState& state, double* block) const {
-    Eigen::Map<Eigen::VectorXd> flat(block, size_);
-    Index at = 0;
-    for (const ScrewAxis& axis : state.axes) {
-      flat.segment<3>(at) = axis.line.direction;
-      flat.segment<3>(at + 3) = axis.line.point;
-      at += 6;
-    }
-    for_each_group(state, layout_, [&](Index, const auto& group) {
-      flat.segment(at, group.size()) = group;
-      at += group.size();
-    });
-  }
+  void write(const ArmState& state, double* block) const { Eigen::Map<Eigen::VectorXd>(block, size_) = flattened(state, layout_); }
 
   [[nodiscard]] ArmState read(const double* block) const {
     const Eigen::Map<const Eigen::VectorXd> flat(block, size_);
@@ -55,7 +40,7 @@ class FlatState {
  private:
   const ArmState& shape_;
   const ArmLayout& layout_;
-  Index size_ = 0;
+  Index size_;
 };
 
 // Steps are taken in the layout's coordinates. The cost function gives its derivative in them at once, in the first columns of its
@@ -86,7 +71,7 @@ class ArmManifold final : public ceres::Manifold {
 // the same Gauss-Newton matrix, at any number of samples.
 class ArmCost final : public ceres::CostFunction {
  public:
-  ArmCost(const ArmProblem& problem, const FlatState& flat) : problem_(problem), flat_(flat) {
+  ArmCost(const ArmProblem& problem, const FlatState& flat, KeptSystems& kept) : problem_(problem), flat_(flat), kept_(kept) {
     set_num_residuals(static_cast<int>(problem.layout.columns) + 1);
     mutable_parameter_block_sizes()->push_back(flat.size());
   }
@@ -110,16 +95,19 @@ class ArmCost final : public ceres::CostFunction {
     }
     return true;
   }
+  // By how much the sum of squares would still fall where it was evaluated last, were it quadratic: the squared distance to the
+  // minimum in standard deviations.
+  [[nodiscard]] double expected_fall() const { return residual_.head(problem_.layout.columns).squaredNorm(); }
   // The data's equations at `block`, which is mostly where the solver looked last.
   std::vector<PartEquations> parts_at(const std::vector<double>& block) const {
     const Eigen::Map<const Eigen::VectorXd> here(block.data(), flat_.size());
-    return evaluated_ == here ? std::move(parts_) : linearise_data(problem_, flat_.read(block.data()));
+    return evaluated_ == here ? std::move(parts_) : linearise_data(problem_, flat_.read(block.data()), &kept_);
   }
 
  private:
   void evaluate(const ArmState& state) const {
     const Index columns = problem_.layout.columns;
-    parts_ = linearise_data(problem_, state);
+    parts_ = linearise_data(problem_, state, &kept_);
     NormalEquations all = marginal(problem_, parts_).equations;
     all += linearise_prior(problem_, state);
     // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
@@ -139,6 +127,7 @@ class ArmCost final : public ceres::CostFunction {
 
   const ArmProblem& problem_;
   const FlatState& flat_;
+  KeptSystems& kept_;
   mutable Eigen::VectorXd evaluated_;  // where the rest was evaluated
   mutable std::vector<PartEquations> parts_;
   mutable Eigen::VectorXd residual_;
@@ -146,28 +135,34 @@ class ArmCost final : public ceres::CostFunction {
   mutable bool usable_ = false;
 };
 
-// Ends once a step that was taken has lowered the sum of squares by little. Ceres' own tolerance drops that step.
-class EndAfterSmallStep final : public ceres::IterationCallback {
+// Ends where a step would lower the sum of squares by next to nothing, and after one that has lowered it by little: near the minimum
+// what is left falls with its square. Ceres' own tolerances know neither what is little nor keep that step.
+class EndAtMinimum final : public ceres::IterationCallback {
  public:
-  explicit EndAfterSmallStep(double negligible_change) : negligible_change_(negligible_change) {}
+  EndAtMinimum(const ArmCost& cost, double negligible_change) : cost_(cost), negligible_change_(negligible_change) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
-    const bool small = iteration.iteration > 0 && iteration.step_is_successful && 2.0 * iteration.cost_change < negligible_change_;
-    return small ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    const double next_to_nothing = 0.001 * negligible_change_;
+    if (iteration.iteration > 0 && !iteration.step_is_successful) {
+      return ceres::SOLVER_CONTINUE;
+    }
+    const bool small = iteration.iteration > 0 && 2.0 * iteration.cost_change < negligible_change_;
+    return small || cost_.expected_fall() < next_to_nothing ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  const ArmCost& cost_;
   double negligible_change_;
 };
 
 }  // namespace
 
-ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations, double negligible_change) {
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, KeptSystems& kept, int max_iterations, double negligible_change) {
   const FlatState flat(start, problem.layout);
   std::vector<double> block(static_cast<std::size_t>(flat.size()));
   flat.write(start, block.data());
   ceres::Problem ceres_problem;
   ceres_problem.AddParameterBlock(block.data(), flat.size(), new ArmManifold(flat));
-  auto* cost = new ArmCost(problem, flat);
+  auto* cost = new ArmCost(problem, flat, kept);
   ceres_problem.AddResidualBlock(cost, nullptr, block.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -176,7 +171,7 @@ ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iter
   options.function_tolerance = 1e-9;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-14;
-  EndAfterSmallStep end(negligible_change);
+  EndAtMinimum end(*cost, negligible_change);
   options.callbacks.push_back(&end);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);

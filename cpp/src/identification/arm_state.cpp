@@ -41,6 +41,23 @@ ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<
   return next;
 }
 
+Eigen::VectorXd flattened(const ArmState& state, const ArmLayout& layout) {
+  Index size = 6 * static_cast<Index>(state.axes.size());
+  for_each_group(state, layout, [&](Index, const auto& group) { size += group.size(); });
+  Eigen::VectorXd flat(size);
+  Index at = 0;
+  for (const ScrewAxis& axis : state.axes) {
+    flat.segment<3>(at) = axis.line.direction;
+    flat.segment<3>(at + 3) = axis.line.point;
+    at += 6;
+  }
+  for_each_group(state, layout, [&](Index, const auto& group) {
+    flat.segment(at, group.size()) = group;
+    at += group.size();
+  });
+  return flat;
+}
+
 Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout) {
   Eigen::VectorXd value = Eigen::VectorXd::Zero(layout.columns);
   for_each_group(state, layout, [&](Index column, const auto& group) {

@@ -78,6 +78,9 @@ void for_each_group(State& state, const ArmLayout& layout, const Visit& visit) {
 // The state moved by a step in the layout's coordinates (lines: their local coordinates).
 ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<const Eigen::VectorXd>& step);
 
+// All that a state says, estimated or not: of each line direction and point (6), then all groups.
+Eigen::VectorXd flattened(const ArmState& state, const ArmLayout& layout);
+
 // Current values of the layout's columns; a line's are zero.
 Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout);
 

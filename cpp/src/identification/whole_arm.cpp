@@ -23,7 +23,7 @@ namespace {
 constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
 constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up; knocks show after
 constexpr int passes_that_cut = 3;        // knocks
-constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders'
+constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders' and its order found
 constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
@@ -142,16 +142,18 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   Eigen::MatrixXd covariance;
   NormalEquations all;
   std::vector<PartEquations> parts;
+  KeptSystems kept;
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   if (problem.rows.yields) {
     // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
-    const ArmSolution first = solve(problem, state, 50, last_change);
+    const ArmSolution first = solve(problem, state, kept, 50, last_change);
     result.iterations += first.iterations;
     state = first.state;
     const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
     ArmRows tied = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
     if (!tied.stretches.empty()) {
       problem.rows = std::move(tied);
+      kept.forget();
       result.samples = problem.rows.samples;
       name_kinds(problem.rows, joints);
       problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
@@ -164,7 +166,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   int since = 0;  // the pass after the columns last changed
   int last = options.max_passes;
   for (int pass = 0; pass < last; ++pass) {
-    ArmSolution solution = solve(problem, state, 50, last_change);
+    ArmSolution solution = solve(problem, state, kept, 50, last_change);
     result.iterations += solution.iterations;
     const ArmState former = state;
     state = solution.state;
@@ -175,7 +177,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     const NormalEquations prior = linearise_prior(problem, state);
     information = all.information + prior.information;
     covariance = ScaledInformation(information, 1e-15).inverse();
-    now = residuals(problem, state);
+    now = residuals(problem, state, &kept);
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
     const int cutting = since == 0 ? first_cut : since + 1;
@@ -186,6 +188,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     if ((result.converged || wrong || pass + 1 == last) && pass > since &&
         claim_evident_encoder_errors(problem, state, moves, options)) {
       search = InflationSearch();
+      kept.forget();
       result.converged = false;
       since = pass + 1;
       last = since + options.max_passes;
@@ -195,8 +198,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     if (result.converged || pass + 1 == last) {
       break;
     }
-    if (pass < first_cut) {
+    if (pass < first_cut && !problem.rows.ties.empty()) {
       retie(problem.rows, problem.offsets);
+      kept.forget();
     }
     const double inflation = pass > since ? search.next(problem.noise.inflation, ratio) : 1.0;
     if (pass >= cutting && pass < cutting + passes_that_cut) {
@@ -204,6 +208,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       result.outliers += cut;
       if (cut > 0) {
         problem.noise.encoder.clear();
+        kept.forget();
         now = residuals(problem, state);
       }
     }

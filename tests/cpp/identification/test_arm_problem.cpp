@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "arm_problem.hpp"
+
+namespace circlepoint {
+namespace {
+
+// Two joints, one stretch that knows an offset of the first, and a dwell.
+struct ProblemCase {
+  ArmProblem problem;
+  ArmState state;
+};
+
+ProblemCase a_problem() {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  const auto matrix = [&](Index rows, Index columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }));
+  };
+  constexpr Index rows = 20;
+  constexpr Index joints = 2;
+  ProblemCase made;
+  ArmState& state = made.state;
+  state.axes = {{JointType::revolute, {Eigen::Vector3d::UnitZ(), {0.3, 0.1, 0.0}}},
+                {JointType::revolute, {Eigen::Vector3d::UnitX(), {0.0, 0.2, -0.4}}}};
+  state.reference = Eigen::VectorXd::Zero(joints);
+  state.up_gravity = {0.0, 6.0, 7.0};
+  state.encoder_gain = Eigen::VectorXd::Zero(joints);
+  state.eccentricity = Eigen::Matrix2Xd::Zero(2, joints);
+
+  ArmProblem& problem = made.problem;
+  problem.layout.claim_lines(state.axes, {true, true});
+  problem.layout.up_gravity = problem.layout.claim(3);
+  problem.layout.clock_offset = problem.layout.claim(1);
+  problem.rows.channels = 3;
+  MovingStretch stretch;
+  stretch.time = Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
+  stretch.position = matrix(rows, joints);
+  stretch.velocity = matrix(rows, joints);
+  stretch.acceleration = matrix(rows, joints);
+  stretch.jerk = matrix(rows, joints);
+  stretch.reading = 9.0 * matrix(rows, 3);
+  stretch.noise = 0;
+  const OffsetTerm term{0, add_parameters(problem.rows, Eigen::MatrixXd::Constant(1, 1, 1e-6))};
+  add_term(stretch, term, Eigen::VectorXd::Ones(rows), Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(rows));
+  problem.rows.stretches = {stretch};
+  DwellRow dwell;
+  dwell.position = matrix(joints, 1);
+  dwell.position_variance = Eigen::VectorXd::Constant(joints, 1e-8);
+  dwell.reading = 9.0 * matrix(3, 1);
+  dwell.variance = Eigen::VectorXd::Constant(3, 1e-4);
+  problem.rows.dwells = {dwell};
+  problem.offsets = Eigen::VectorXd::Zero(1);
+  problem.noise = white_noise(problem.rows, 0.1, 0.02, 0.01);
+  return made;
+}
+
+void expect_same(const std::vector<PartEquations>& parts, const std::vector<PartEquations>& expected, double tolerance) {
+  ASSERT_EQ(parts.size(), expected.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const NormalEquations& mine = parts[i].equations;
+    const NormalEquations& theirs = expected[i].equations;
+    EXPECT_LE((mine.information - theirs.information).norm(), tolerance * theirs.information.norm());
+    EXPECT_LE((mine.gradient - theirs.gradient).norm(), tolerance * theirs.gradient.norm());
+    EXPECT_LE(std::abs(mine.cost - theirs.cost), tolerance * theirs.cost);
+  }
+}
+
+TEST(KeptSystemsTest, ServeAnyNoiseAtTheirState) {
+  ProblemCase given = a_problem();
+  KeptSystems kept;
+  linearise_data(given.problem, given.state, &kept);
+  given.problem.noise = white_noise(given.problem.rows, 0.03, 0.01, 0.01);
+  const std::vector<PartEquations> expected = linearise_data(given.problem, given.state);
+  expect_same(linearise_data(given.problem, given.state, &kept), expected, 0.0);
+  const ArmResiduals residual = residuals(given.problem, given.state, &kept);
+  EXPECT_EQ(residual.moving[0], residuals(given.problem, given.state).moving[0]);
+  // The model was not asked again: other readings are not seen before somebody says so.
+  given.problem.rows.stretches[0].reading.setZero();
+  expect_same({linearise_data(given.problem, given.state, &kept)[0]}, {expected[0]}, 0.0);
+  kept.forget();
+  expect_same(linearise_data(given.problem, given.state, &kept), linearise_data(given.problem, given.state), 0.0);
+}
+
+TEST(KeptSystemsTest, FollowSmallStepsOfTheOffsetsAndAreMadeAnewForLargeOnes) {
+  for (const double step : {1e-7, 1e-5, 1e-4, 0.1}) {
+    ProblemCase given = a_problem();
+    KeptSystems kept;
+    linearise_data(given.problem, given.state, &kept);
+    given.problem.offsets[0] += step;
+    // Derivatives are kept as they were, up to a hundred-thousandth.
+    expect_same(linearise_data(given.problem, given.state, &kept), linearise_data(given.problem, given.state), step > 1e-5 ? 0.0 : 1e-4);
+    const Eigen::MatrixXd moving = residuals(given.problem, given.state, &kept).moving[0];
+    EXPECT_LE((moving - residuals(given.problem, given.state).moving[0]).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(KeptSystemsTest, AreMadeAnewAtAnotherState) {
+  ProblemCase given = a_problem();
+  KeptSystems kept;
+  linearise_data(given.problem, given.state, &kept);
+  given.state.clock_offset = 1e-9;
+  expect_same(linearise_data(given.problem, given.state, &kept), linearise_data(given.problem, given.state), 0.0);
+}
+
+}  // namespace
+}  // namespace circlepoint
