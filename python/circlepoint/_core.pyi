@@ -2270,6 +2270,14 @@ class WholeArmOptions:
     def gyroscope_bias(self, arg0: ParameterTreatment) -> None:
         ...
     @property
+    def gyroscope_delay(self) -> ParameterTreatment:
+        """
+        s, gyroscope behind the accelerometer
+        """
+    @gyroscope_delay.setter
+    def gyroscope_delay(self, arg0: ParameterTreatment) -> None:
+        ...
+    @property
     def gyroscope_matrix(self) -> ParameterTreatment:
         """
         1
@@ -2503,6 +2511,11 @@ class WholeArmCalibration:
     def gyroscope_bias(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         (3,) rad/s
+        """
+    @property
+    def gyroscope_delay(self) -> float:
+        """
+        s, behind the accelerometer
         """
     @property
     def gyroscope_matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:

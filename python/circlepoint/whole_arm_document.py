@@ -79,12 +79,17 @@ def _sensor_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
             "std": float(weight.sum() ** -0.5),
             "channels": channels,
         }
+
+    def single(name: str) -> Document | None:
+        at = index.get(name)
+        return None if at is None else estimate_entry(float(value[at]), float(std[at]))
+
     for name in ("clock_offset", "clock_rate"):
-        at_name = index.get(name)
-        entry[name] = None if at_name is None else estimate_entry(float(value[at_name]), float(std[at_name]))
+        entry[name] = single(name)
     if estimate.gyroscope_used:
         bias = triple(("gyroscope_bias_x", "gyroscope_bias_y", "gyroscope_bias_z"))
-        entry["gyroscope"] = {"bias": bias, "matrix": plain(estimate.gyroscope_matrix)}
+        delay = single("gyroscope_delay")
+        entry["gyroscope"] = {"bias": bias, "matrix": plain(estimate.gyroscope_matrix), "delay": delay}
     return entry
 
 

@@ -142,6 +142,32 @@ def test_a_gyroscope_helps_and_its_own_errors_are_found():
         assert mine.axis.direction_std() <= 1.02 * theirs.axis.direction_std()
 
 
+def test_a_gyroscope_behind_the_accelerometer_is_found_and_does_no_harm():
+    late = 0.003
+    motion = cp.joint_trajectory(START, free(20.0), RATE, 0.6)
+    options = cp.SimulationOptions(noise_std=0.02, seed=5, angular_velocity_noise_std=0.002)
+    recording = cp.simulate(chain_of(LINES), UP, cp.AccelerometerModel(), motion, options)
+    rate = CubicSpline(recording.time, recording.angular_velocity)(recording.time - late)
+    behind = cp.make_recording(
+        recording.time,
+        np.ascontiguousarray(recording.joint_positions),
+        np.ascontiguousarray(recording.specific_force),
+        angular_velocity=rate,
+    )
+    result = estimate(behind, sensor="mems")
+    delay = value(result, "gyroscope_delay")
+    assert result.gyroscope_delay == delay.value
+    assert abs(delay.value - late) < 4.5 * delay.std < 0.5e-3
+    assert_found(result, chain_of(LINES), 2e-3)
+    none = estimate(recording, sensor="mems")
+    assert abs(none.gyroscope_delay) < 4.5 * value(none, "gyroscope_delay").std
+    fixed = estimate(behind, sensor="mems", gyroscope_delay=cp.ParameterTreatment(False))
+    assert fixed.gyroscope_delay == 0.0
+    # Both sensors' clocks taken for one, neither is met.
+    assert abs(result.clock_offset) < 4.5 * value(result, "clock_offset").std
+    assert abs(fixed.clock_offset) > 10.0 * value(fixed, "clock_offset").std
+
+
 def test_a_joint_that_never_moves_has_no_line_and_the_others_do():
     result = estimate(recorded(sweeps_of([0, 2])))
     assert [joint.axis is not None for joint in result.joints.joints] == [True, False, True]

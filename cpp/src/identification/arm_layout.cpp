@@ -64,6 +64,7 @@ void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>
     Eigen::VectorXd identity(9);
     identity << 1, 0, 0, 0, 1, 0, 0, 0, 1;
     group(layout.gyroscope_matrix, options.gyroscope_matrix, 0.0, identity);
+    group(layout.gyroscope_delay, options.gyroscope_delay, 0.0, Eigen::VectorXd::Zero(1));
   }
 }
 

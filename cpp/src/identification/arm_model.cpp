@@ -49,9 +49,9 @@ ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
   }
 }
 
-void ArmPredictor::delay(const JointInstant& instant) {
+void ArmPredictor::delay(const JointInstant& instant, double further) {
   stamped_ = instant;
-  const double delay = state_.clock_offset + (state_.clock_rate - 1.0) * instant.time_from_middle;
+  const double delay = state_.clock_offset + (state_.clock_rate - 1.0) * instant.time_from_middle + further;
   if (delay != 0.0) {
     stamped_.position += -delay * instant.velocity + 0.5 * delay * delay * instant.acceleration -
                          delay * delay * delay / 6.0 * instant.jerk;
@@ -80,8 +80,8 @@ void ArmPredictor::correct_encoders() {
   }
 }
 
-void ArmPredictor::forward(const JointInstant& instant) {
-  delay(instant);
+void ArmPredictor::forward(const JointInstant& instant, double further_delay) {
+  delay(instant, further_delay);
   correct_encoders();
   force_[0] = state_.up_gravity;
   for (Index j = 0; j < joints_; ++j) {
@@ -112,11 +112,23 @@ void ArmPredictor::forward(const JointInstant& instant) {
   }
 }
 
+// The part of backward() that angular velocity needs.
+void ArmPredictor::turn_back() {
+  const auto tip = static_cast<std::size_t>(joints_);
+  to_sensor_[tip].setIdentity();
+  for (std::size_t k = tip + 1; k-- > 0;) {
+    if (k < tip) {
+      to_sensor_[k] = state_.axes[k].type == JointType::prismatic ? to_sensor_[k + 1] : turn_[k] * to_sensor_[k + 1];
+    }
+    rate_by_rotation_[k] = to_sensor_[k].transpose() * skew(rate_[k]);
+  }
+}
+
 void ArmPredictor::backward() {
+  turn_back();
   const auto tip = static_cast<std::size_t>(joints_);
   place_[tip].setZero();
   place_rate_[tip].setZero();
-  to_sensor_[tip].setIdentity();
   for (std::size_t k = tip + 1; k-- > 0;) {
     if (k < tip) {
       const auto j = static_cast<Index>(k);
@@ -125,12 +137,10 @@ void ArmPredictor::backward() {
       if (axis.type == JointType::prismatic) {
         place_[k] = place_[k + 1] + (now_.position[j] - state_.reference[j]) * z;
         place_rate_[k] = place_rate_[k + 1] + now_.velocity[j] * z;
-        to_sensor_[k] = to_sensor_[k + 1];
       } else {
         const Eigen::Vector3d arm = turn_[k] * (place_[k + 1] - axis.line.point);
         place_[k] = axis.line.point + arm;
         place_rate_[k] = now_.velocity[j] * z.cross(arm) + turn_[k] * place_rate_[k + 1];
-        to_sensor_[k] = turn_[k] * to_sensor_[k + 1];
       }
     }
     // A_k of the header, as the sensor reads it; products of skew-symmetric matrices written out as outer products.
@@ -148,7 +158,6 @@ void ArmPredictor::backward() {
     by_shift.diagonal().array() -= w.squaredNorm();
     by_twist_[k].leftCols<3>() = force_read_[k] * by_rotation + rate_read_[k] * w_skew;
     by_twist_[k].rightCols<3>() = force_read_[k] * by_shift;
-    rate_by_rotation_[k] = to_sensor_[k].transpose() * w_skew;
   }
 }
 
@@ -247,12 +256,19 @@ void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian)
   }
 }
 
-Eigen::Vector3d ArmPredictor::angular_rate() const {
+Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant) {
+  if (state_.gyroscope_delay != 0.0) {
+    forward(instant, state_.gyroscope_delay);
+  }
   return state_.gyroscope_matrix * rate_.back() + state_.gyroscope_bias;
 }
 
-Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
+Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
   jacobian.setZero();
+  const Eigen::Vector3d reading = angular_rate(instant);
+  if (state_.gyroscope_delay != 0.0) {
+    turn_back();
+  }
   const Eigen::Vector3d& w = rate_.back();
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     if (layout_.lines[i] >= 0) {
@@ -261,12 +277,16 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian
                                                  line_twists_[i].topLeftCorner<3, 2>();
     }
   }
+  // The sensor's angular acceleration, seen from the sensor itself.
+  const Eigen::Vector3d by_delay = -state_.gyroscope_matrix * angular_acceleration_.back();
   if (layout_.clock_offset >= 0) {
-    // The sensor's angular acceleration, seen from the sensor itself.
-    jacobian.col(layout_.clock_offset) = -state_.gyroscope_matrix * angular_acceleration_.back();
-    if (layout_.clock_rate >= 0) {
-      jacobian.col(layout_.clock_rate) = now_.time_from_middle * jacobian.col(layout_.clock_offset);
-    }
+    jacobian.col(layout_.clock_offset) = by_delay;
+  }
+  if (layout_.clock_rate >= 0) {
+    jacobian.col(layout_.clock_rate) = now_.time_from_middle * by_delay;
+  }
+  if (layout_.gyroscope_delay >= 0) {
+    jacobian.col(layout_.gyroscope_delay) = by_delay;
   }
   for (Index j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j) + 1;
@@ -298,7 +318,7 @@ Eigen::Vector3d ArmPredictor::angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian
       jacobian(k / 3, layout_.gyroscope_matrix + k) = w[k % 3];
     }
   }
-  return angular_rate();
+  return reading;
 }
 
 // Everything beyond the joint is displaced by eta = twist q: the point p of the sensor by u = v + z x p, whose own motion in the

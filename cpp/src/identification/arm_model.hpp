@@ -40,17 +40,18 @@ class ArmPredictor {
   Eigen::Vector3d reading(const JointInstant& instant);
   // The same with its derivatives: jacobian (3, columns).
   Eigen::Vector3d reading(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
-  // Gyroscope reading of the instant evaluated last, rad/s.
-  [[nodiscard]] Eigen::Vector3d angular_rate() const;
-  // The same with its derivatives, after a call with derivatives of the same instant.
-  Eigen::Vector3d angular_rate(Eigen::Ref<Eigen::Matrix3Xd> jacobian);
+  // Gyroscope reading, rad/s, after a call of reading() for the same instant.
+  Eigen::Vector3d angular_rate(const JointInstant& instant);
+  // The same with its derivatives, after such a call with derivatives.
+  Eigen::Vector3d angular_rate(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
   // By the joints' own motion, at the instant evaluated last with derivatives.
   [[nodiscard]] const ByJoint& by_joint() const { return by_joint_; }
 
  private:
-  void forward(const JointInstant& instant);
+  void forward(const JointInstant& instant, double further_delay = 0.0);
+  void turn_back();
   void backward();
-  void delay(const JointInstant& instant);
+  void delay(const JointInstant& instant, double further);
   void correct_encoders();
   [[nodiscard]] Eigen::Vector3d sense() const;
   void find_by_joint();

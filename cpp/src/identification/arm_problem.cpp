@@ -76,7 +76,7 @@ void fill_system(const ArmProblem& problem, ArmPredictor& predictor, const Movin
       system(channel * rows + i, last) = reading[channel] - stretch.reading(i, channel);
     }
     if (problem.rows.channels == 6) {
-      const Eigen::Vector3d rate = predictor.angular_rate(jacobian);
+      const Eigen::Vector3d rate = predictor.angular_rate(instant, jacobian);
       for (int channel = 0; channel < 3; ++channel) {
         system.row((3 + channel) * rows + i).head(columns) = jacobian.row(channel);
         system((3 + channel) * rows + i, last) = rate[channel] - stretch.reading(i, 3 + channel);
@@ -93,7 +93,7 @@ Eigen::MatrixXd differences(const ArmProblem& problem, ArmPredictor& predictor, 
     set_instant(stretch, row, problem, instant);
     result.row(row).head<3>() = predictor.reading(instant) - stretch.reading.row(row).head<3>().transpose();
     if (problem.rows.channels == 6) {
-      result.row(row).tail<3>() = predictor.angular_rate() - stretch.reading.row(row).tail<3>().transpose();
+      result.row(row).tail<3>() = predictor.angular_rate(instant) - stretch.reading.row(row).tail<3>().transpose();
     }
   }
   return result;
@@ -122,7 +122,7 @@ DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, con
   }
   system.variance.topLeftCorner<3, 3>() += by_position * dwell.position_variance.asDiagonal() * by_position.transpose();
   if (channels == 6) {
-    const Eigen::Vector3d rate = predictor.angular_rate(jacobian);
+    const Eigen::Vector3d rate = predictor.angular_rate(instant, jacobian);
     system.rows.bottomLeftCorner(3, columns) = jacobian;
     system.rows.col(last).tail<3>() = rate - dwell.reading.tail<3>();
   }

@@ -111,6 +111,9 @@ std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout&
     put(layout.gyroscope_matrix + k,
         std::string("gyroscope_") + xyz[static_cast<std::size_t>(k / 3)] + xyz[static_cast<std::size_t>(k % 3)]);
   }
+  if (layout.gyroscope_delay >= 0) {
+    put(layout.gyroscope_delay, "gyroscope_delay");
+  }
   return names;
 }
 

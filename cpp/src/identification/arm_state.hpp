@@ -23,6 +23,7 @@ struct ArmState {
   Eigen::Matrix2Xd eccentricity;  // (2, n) rad: of cos(q) and sin(q)
   Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();  // rad/s
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor> gyroscope_matrix = Eigen::Matrix3d::Identity();  // reading = matrix w + bias
+  double gyroscope_delay = 0.0;  // s: it shows what the accelerometer showed so much earlier
 };
 
 // Columns of the parameter vector: each group begins at its column, or at -1 when it is fixed.
@@ -40,6 +41,7 @@ struct ArmLayout {
   std::vector<Index> eccentricity;  // (n) two columns each
   Index gyroscope_bias = -1;
   Index gyroscope_matrix = -1;
+  Index gyroscope_delay = -1;
   Index columns = 0;
 
   // The next free column; `count` of them are taken.
@@ -73,6 +75,7 @@ void for_each_group(State& state, const ArmLayout& layout, const Visit& visit) {
   }
   array(layout.gyroscope_bias, state.gyroscope_bias);
   array(layout.gyroscope_matrix, state.gyroscope_matrix);
+  number(layout.gyroscope_delay, state.gyroscope_delay);
 }
 
 // The state moved by a step in the layout's coordinates (lines: their local coordinates).

@@ -35,7 +35,7 @@ void validate(const Recording& recording, const WholeArmOptions& options) {
               std::to_string(recording.sample_rate) + " Hz");
   for (const ParameterTreatment* treatment :
        {&options.bias, &options.scale, &options.misalignment, &options.percussion_distance, &options.second_order, &options.gravity,
-        &options.clock_offset, &options.clock_rate, &options.gyroscope_bias, &options.gyroscope_matrix}) {
+        &options.clock_offset, &options.clock_rate, &options.gyroscope_bias, &options.gyroscope_matrix, &options.gyroscope_delay}) {
     require(!treatment->where_evident, "where_evident is for encoder_gain and eccentricity only; set estimated and std of the others");
   }
   require(options.max_passes > 0, "max_passes is " + std::to_string(options.max_passes) + "; give 1 or more");
@@ -247,6 +247,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.eccentricity = state.eccentricity.transpose();
   result.gyroscope_bias = state.gyroscope_bias;
   result.gyroscope_matrix = state.gyroscope_matrix;
+  result.gyroscope_delay = state.gyroscope_delay;
 
   const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * options.gravity_magnitude; };
   const bool gravity_seen = settled(seen.data_std.segment<3>(problem.layout.up_gravity)) ||

@@ -42,6 +42,7 @@ ArmCase random_case(unsigned seed) {
   arm.state.eccentricity = vector(2 * joints, 1e-2).reshaped(2, joints);
   arm.state.gyroscope_bias = vector3(0.01);
   arm.state.gyroscope_matrix += 0.02 * Eigen::Matrix3d::Random();
+  arm.state.gyroscope_delay = seed % 2 == 0 ? 0.0 : 3e-3;
   arm.layout.claim_lines(arm.state.axes, std::vector<bool>(joints, true));
   arm.layout.up_gravity = arm.layout.claim(3);
   arm.layout.bias = arm.layout.claim(3);
@@ -57,6 +58,7 @@ ArmCase random_case(unsigned seed) {
   }
   arm.layout.gyroscope_bias = arm.layout.claim(3);
   arm.layout.gyroscope_matrix = arm.layout.claim(9);
+  arm.layout.gyroscope_delay = arm.layout.claim(1);
   arm.instant = {3.0, vector(joints, 1.0), vector(joints, 1.0), vector(joints, 3.0), vector(joints, 10.0)};
   return arm;
 }
@@ -69,7 +71,7 @@ Eigen::MatrixXd differences(const ArmCase& arm) {
     ArmPredictor predictor(moved(arm.state, arm.layout, by), arm.layout);
     Eigen::Matrix<double, 6, 1> both;
     both.head<3>() = predictor.reading(arm.instant);
-    both.tail<3>() = predictor.angular_rate();
+    both.tail<3>() = predictor.angular_rate(arm.instant);
     return both;
   };
   for (Index k = 0; k < arm.layout.columns; ++k) {
@@ -87,7 +89,7 @@ TEST(ArmModel, derivatives_in_closed_form_are_those_of_finite_differences) {
     Eigen::Matrix3Xd jacobian(3, arm.layout.columns);
     predictor.reading(arm.instant, jacobian);
     Eigen::Matrix3Xd rate(3, arm.layout.columns);
-    predictor.angular_rate(rate);
+    predictor.angular_rate(arm.instant, rate);
     const std::vector<std::string> names = parameter_names(arm.state, arm.layout);
     for (Index k = 0; k < arm.layout.columns; ++k) {
       const double size = 1.0 + expected.col(k).norm();

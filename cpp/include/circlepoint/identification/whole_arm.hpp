@@ -2,7 +2,7 @@
 // One maximum-likelihood estimate of everything a recording says about an arm (docs/method, section 8).
 //
 // Unknown at once: every joint's line, up-gravity, the sensor's own errors, the delay between encoders and sensor, and on request
-// the clocks' rate, the encoders' gains and eccentricities; a gyroscope, where recorded, with its own bias and matrix. Each
+// the clocks' rate, the encoders' gains and eccentricities; a gyroscope, where recorded, with its own bias, matrix and delay. Each
 // group is fixed, free, or free with a Gaussian prior. The data are the means of static dwells and every moving stretch of
 // the recording, single-joint tests or not; no nominal arm is needed.
 //
@@ -52,6 +52,7 @@ struct WholeArmOptions {
   ParameterTreatment eccentricity{true, 0.02, true};  ///< rad, of the moving joints that turn: what is off once a turn
   ParameterTreatment gyroscope_bias{true, 0.1};       ///< rad/s
   ParameterTreatment gyroscope_matrix{true, 0.05};    ///< 1
+  ParameterTreatment gyroscope_delay{true, 0.002};    ///< s, gyroscope behind the accelerometer: their filters differ
   bool use_gyroscope = true;            ///< where there is one
   double gravity_magnitude = standard_gravity;  ///< m/s^2
   double cutoff = 0.0;                  ///< Hz, of the common low-pass; 0: chosen from rate, motion and encoders
@@ -103,6 +104,7 @@ struct WholeArmCalibration {
   Eigen::Matrix<double, Eigen::Dynamic, 2> eccentricity;   ///< (n, 2) rad, where estimated
   Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();        ///< rad/s
   Eigen::Matrix3d gyroscope_matrix = Eigen::Matrix3d::Identity();
+  double gyroscope_delay = 0.0;                                    ///< s, behind the accelerometer
   bool gyroscope_used = false;
   int rank = 0;                 ///< parameter combinations the data alone determine
   double condition_number = 0.0;
