@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from circlepoint.report.series import broken_line, decimate
+from circlepoint.report.series import broken_line
 from circlepoint.report.style import axis_colours, figure_style, palette, plain
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ _width = 9.6  # in
 _label_inset = 0.58  # in, from a panel to its label
 _overview_buckets = 450
 _test_buckets = 260
+_least_range = 1.0  # deg or mm, of the axis of positions: rests that differ by less are one place
 
 
 def draw_overview(calibration: CalibrationResult) -> Figure:
@@ -142,14 +143,15 @@ def _shade(panel: Axes, calibration: CalibrationResult, joint: int) -> None:
 
 def _draw_motion(upper: Axes, lower: Sequence[Axes], fit: TestFit) -> None:
     time = fit.time - fit.time[0]
+    rate = 1.0 / float(np.median(np.diff(time))) if len(time) > 1 else 1.0
     residual, unit = _residual_scale(fit.measured - fit.modelled)
     for k, colour in enumerate(axis_colours):
-        t, values = decimate(time, fit.measured[:, k], _test_buckets)
+        t, values = broken_line(time, fit.measured[:, k], rate, _test_buckets)
         upper.plot(t, values, color=colour, linewidth=3.2, alpha=0.4)
     for k, (panel, colour) in enumerate(zip(lower, axis_colours, strict=True)):
-        t, values = decimate(time, fit.modelled[:, k], _test_buckets)
+        t, values = broken_line(time, fit.modelled[:, k], rate, _test_buckets)
         upper.plot(t, values, color=palette["ink"][0], linewidth=0.8)
-        t, values = decimate(time, residual[:, k], _test_buckets)
+        t, values = broken_line(time, residual[:, k], rate, _test_buckets)
         panel.plot(t, values, color=colour, linewidth=0.7)
         panel.tick_params(labelbottom=panel is lower[-1], bottom=panel is lower[-1])
         panel.spines["bottom"].set_visible(panel is lower[-1])
@@ -168,7 +170,7 @@ def _draw_dwells(upper: Axes, lower: Axes, fit: TestFit, joint: Document) -> Non
     order = np.argsort(fit.dwell_positions, kind="stable")
     position = scale * fit.dwell_positions[order]
     residual, residual_unit = _residual_scale((fit.dwell_measured - fit.dwell_modelled)[order])
-    shift = 0.008 * float(np.ptp(position))
+    shift = 0.008 * max(float(np.ptp(position)), _least_range)
     for k, colour in enumerate(axis_colours):
         upper.plot(position, fit.dwell_modelled[order, k], color=palette["ink"][0], linewidth=0.8)
         upper.plot(position, fit.dwell_measured[order, k], "o", color=colour, markersize=4.5, alpha=0.85, mew=0)
@@ -179,6 +181,9 @@ def _draw_dwells(upper: Axes, lower: Axes, fit: TestFit, joint: Document) -> Non
     lower.set_ylabel(f"residual, {residual_unit}")
     lower.set_xlabel(f"joint position, {unit}")
     upper.tick_params(labelbottom=False)
+    if float(np.ptp(position)) < _least_range:
+        middle = 0.5 * float(position.min() + position.max())
+        upper.set_xlim(middle - 0.5 * _least_range, middle + 0.5 * _least_range)
     _centre(lower, residual, 4)
     _align_labels([upper, lower])
 

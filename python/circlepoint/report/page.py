@@ -183,7 +183,7 @@ def _tests_section(document: Document, drawings: Drawings) -> str:
         label = escaped(f"{test.title}: measured against modelled specific force, with residuals")
         facts = f"residual {1e3 * test.fit.residual_rms:.1f} mm/s² rms"
         if len(test.fit.time):
-            facts += f" below {test.fit.cutoff:g} Hz (measured and modelled through the same filter)"
+            facts += f" below {test.fit.cutoff:.3g} Hz (measured and modelled through the same filter)"
         parts.append(
             f"<figure class=test><h3>{escaped(test.title)} <small>{escaped(facts)}</small></h3>"
             f"{inline_svg(test.svg, f'test{index}', label)}</figure>"
