@@ -6,8 +6,9 @@ import pytest
 
 import circlepoint
 from circlepoint.arm import Arm, DhRow, Joint, NominalDh
-from circlepoint.calibration import calibrate
+from circlepoint.calibration import calibrate, whole_arm_options
 from circlepoint.document import load_schema
+from circlepoint.report.tables import sensor_table
 from circlepoint.sensor_presets import load_sensor
 
 UP = circlepoint.STANDARD_GRAVITY * np.array([0.48, -0.6, 0.64])
@@ -99,6 +100,35 @@ def test_the_document_of_every_method_fits_the_schema(recording, method):
     assert document["complete"]
     assert document["method"] == method
     assert (document["sensor"]["bias"] is not None) == (method in ("whole-arm", "joint"))
+
+
+@pytest.mark.parametrize("estimated", [True, False])
+def test_the_document_with_a_gyroscope_fits_the_schema_and_tells_its_delay(estimated, monkeypatch):
+    motion = circlepoint.MultiJointMotion(duration=15.0, amplitude=np.full(4, 1.0), seed=2)
+    recording = circlepoint.simulate(
+        four_joints(),
+        UP,
+        circlepoint.AccelerometerModel(),
+        circlepoint.joint_trajectory(START, [motion], 200.0, 0.6),
+        circlepoint.SimulationOptions(noise_std=0.01, angular_velocity_noise_std=0.002, seed=1),
+    )
+
+    def chosen(*arguments, **named):
+        made = whole_arm_options(*arguments, **named)
+        made.gyroscope_delay = circlepoint.ParameterTreatment(estimated, 0.002)
+        return made
+
+    monkeypatch.setattr("circlepoint.calibration.whole_arm_options", chosen)
+    document = calibrate(recording, an_arm(), sensor=load_sensor("qa700")).document
+    jsonschema.Draft202012Validator(load_schema()).validate(document)
+    delay = document["sensor"]["gyroscope"]["delay"]
+    if estimated:
+        assert abs(delay["estimate"]) < 4.5 * delay["std"] < 1e-3
+    else:
+        assert delay is None
+    page = sensor_table(document, None)
+    assert "Accelerometer and gyroscope" in page
+    assert ("not estimated" in page.partition("delay")[2]) is not estimated
 
 
 def test_the_document_of_an_incomplete_calibration_fits_the_schema_and_says_what_to_record():

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "arm_marginal.hpp"
 #include "scaled_information.hpp"
 
 namespace circlepoint {

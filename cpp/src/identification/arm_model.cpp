@@ -42,7 +42,8 @@ ArmPredictor::ArmPredictor(const ArmState& state, const ArmLayout& layout)
   place_rate_.resize(links, Eigen::Vector3d::Zero());
   force_read_.resize(links, Eigen::Matrix3d::Zero());
   rate_read_.resize(links, Eigen::Matrix3d::Zero());
-  by_joint_ = {Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_), Eigen::Matrix3Xd(3, joints_)};
+  rate_by_joint_.position = rate_by_joint_.velocity = rate_by_joint_.acceleration = Eigen::Matrix3Xd::Zero(3, joints_);
+  by_joint_ = rate_by_joint_;
   for (const ScrewAxis& axis : state_.axes) {
     twists_.emplace_back(axis.twist());
     line_twists_.push_back(line_twists(axis));
@@ -292,12 +293,11 @@ Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant, Eigen::R
     const auto k = static_cast<std::size_t>(j) + 1;
     const Index gain = layout_.encoder_gain[k - 1];
     const Index eccentricity = layout_.eccentricity[k - 1];
-    if (gain < 0 && eccentricity < 0) {
-      continue;
-    }
     const Eigen::Vector3d turn = twists_[k - 1].head<3>();
     const Eigen::Vector3d by_position = state_.gyroscope_matrix * rate_by_rotation_[k] * turn;
     const Eigen::Vector3d by_velocity = state_.gyroscope_matrix * to_sensor_[k].transpose() * turn;
+    rate_by_joint_.position.col(j) = by_position;
+    rate_by_joint_.velocity.col(j) = by_velocity;
     const double q = stamped_.position[j];
     const double q_dot = stamped_.velocity[j];
     if (gain >= 0) {

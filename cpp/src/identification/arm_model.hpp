@@ -24,7 +24,7 @@ struct JointInstant {
   Eigen::VectorXd jerk;           // (n)
 };
 
-// d reading / d q, d q' and d q'': (3, n) each.
+// d reading / d q, d q' and d q'' of the joints, encoders' errors undone: (3, n) each.
 struct ByJoint {
   Eigen::Matrix3Xd position;
   Eigen::Matrix3Xd velocity;
@@ -40,12 +40,14 @@ class ArmPredictor {
   Eigen::Vector3d reading(const JointInstant& instant);
   // The same with its derivatives: jacobian (3, columns).
   Eigen::Vector3d reading(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
-  // Gyroscope reading, rad/s, after a call of reading() for the same instant.
+  // Gyroscope reading, rad/s, after a call of reading() for the same instant; what by_joint() gives stays as it was.
   Eigen::Vector3d angular_rate(const JointInstant& instant);
   // The same with its derivatives, after such a call with derivatives.
   Eigen::Vector3d angular_rate(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian);
   // By the joints' own motion, at the instant evaluated last with derivatives.
   [[nodiscard]] const ByJoint& by_joint() const { return by_joint_; }
+  // The angular rate's, after a call for it with derivatives.
+  [[nodiscard]] const ByJoint& rate_by_joint() const { return rate_by_joint_; }
 
  private:
   void forward(const JointInstant& instant, double further_delay = 0.0);
@@ -76,6 +78,7 @@ class ArmPredictor {
   std::vector<Eigen::Matrix3d> force_read_;                // d reading / d specific force in link k
   std::vector<Eigen::Matrix3d> rate_read_;                 // d reading / d angular velocity in link k
   ByJoint by_joint_;
+  ByJoint rate_by_joint_;
   Eigen::Matrix3d by_force_ = Eigen::Matrix3d::Identity();  // d reading / d specific force at the channels
   Eigen::Matrix3d by_rate_ = Eigen::Matrix3d::Zero();       // d reading / d angular velocity of the sensor
 };

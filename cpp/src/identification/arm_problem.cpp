@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 #include <thread>
 
 namespace circlepoint {
@@ -38,7 +37,7 @@ void set_instant(const DwellRow& dwell, double middle, const ArmProblem& problem
   instant.jerk = instant.velocity;
 }
 
-// d reading / d parameter of every offset term at a stretch's row.
+// d reading / d parameter of every offset term at a stretch's row, of either sensor.
 void fill_by_offset(const ByJoint& by_joint, const MovingStretch& stretch, Index row, Eigen::Ref<Eigen::MatrixXd> derivative) {
   for (std::size_t k = 0; k < stretch.offsets.size(); ++k) {
     const Index joint = stretch.offsets[k].joint;
@@ -77,8 +76,12 @@ void fill_system(const ArmProblem& problem, ArmPredictor& predictor, const Movin
     }
     if (problem.rows.channels == 6) {
       const Eigen::Vector3d rate = predictor.angular_rate(instant, jacobian);
+      if (terms > 0) {
+        fill_by_offset(predictor.rate_by_joint(), stretch, i, by_offset);
+      }
       for (int channel = 0; channel < 3; ++channel) {
         system.row((3 + channel) * rows + i).head(columns) = jacobian.row(channel);
+        system.row((3 + channel) * rows + i).segment(columns, terms) = by_offset.row(channel);
         system((3 + channel) * rows + i, last) = rate[channel] - stretch.reading(i, 3 + channel);
       }
     }
@@ -171,22 +174,24 @@ void for_each(const ArmProblem& problem, const ArmState& state, std::size_t coun
   }
 }
 
-// Whether the systems kept are what the model gives at the state. So small a step of the offsets alone they follow themselves: the
-// second order, 1e-10 of what gravity does, is nothing.
-bool holds(KeptSystems& kept, const ArmProblem& problem, const Eigen::VectorXd& state) {
-  constexpr double carried = 1e-5;  // rad or m
-  if (kept.state.size() != state.size() || kept.state != state) {
+// Brings the systems kept to the problem's offsets; whether they are then what the model gives at the state. Small steps of the offsets
+// alone they follow by their own columns: the second order, 1e-10 of what gravity does, is nothing.
+bool brought_up_to(KeptSystems& kept, const ArmProblem& problem, const Eigen::VectorXd& state) {
+  constexpr double small = 1e-5;  // rad or m, from where they were linearised
+  const std::vector<MovingStretch>& stretches = problem.rows.stretches;
+  if (kept.state.size() != state.size() || kept.state != state || kept.offsets.size() != problem.offsets.size() ||
+      kept.stretches.size() != stretches.size()) {
+    return false;
+  }
+  if (kept.offsets == problem.offsets) {
+    return true;
+  }
+  if (!((problem.offsets - kept.linearised_at).cwiseAbs().maxCoeff() <= small)) {
     return false;
   }
   const Eigen::VectorXd step = problem.offsets - kept.offsets;
-  if (step.size() == 0 || step.isZero(0.0)) {
-    return true;
-  }
-  if (step.cwiseAbs().maxCoeff() > carried) {
-    return false;
-  }
-  for (std::size_t i = 0; i < kept.stretches.size(); ++i) {
-    const std::vector<OffsetTerm>& terms = problem.rows.stretches[i].offsets;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const std::vector<OffsetTerm>& terms = stretches[i].offsets;
     Eigen::MatrixXd& system = kept.stretches[i];
     for (std::size_t k = 0; system.size() > 0 && k < terms.size(); ++k) {
       system.rightCols<1>() += step[terms[k].parameter] * system.col(problem.layout.columns + static_cast<Index>(k));
@@ -230,74 +235,6 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   return *this;
 }
 
-namespace {
-
-// Layout columns first, then all offsets, their prior included. The lower triangle of the information.
-NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
-  const Index columns = problem.layout.columns;
-  const Index offsets = problem.rows.offset_covariance.rows();
-  NormalEquations all = NormalEquations::zero(columns + offsets);
-  for (const PartEquations& part : parts) {
-    const auto mine = static_cast<Index>(part.offsets.size());
-    const NormalEquations& equations = part.equations;
-    for (Index column = 0; column < columns; ++column) {
-      all.information.col(column).segment(column, columns - column) +=
-          equations.information.col(column).segment(column, columns - column);
-    }
-    all.gradient.head(columns) += equations.gradient.head(columns);
-    all.cost += equations.cost;
-    for (Index a = 0; a < mine; ++a) {
-      const Index at = columns + part.offsets[static_cast<std::size_t>(a)];
-      all.information.row(at).head(columns) += equations.information.col(columns + a).head(columns).transpose();
-      all.gradient[at] += equations.gradient[columns + a];
-      for (Index b = 0; b < mine; ++b) {
-        all.information(at, columns + part.offsets[static_cast<std::size_t>(b)]) += equations.information(columns + a, columns + b);
-      }
-    }
-  }
-  if (offsets > 0) {
-    const Eigen::VectorXd pull = problem.rows.offset_information * problem.offsets;
-    all.information.bottomRightCorner(offsets, offsets) += problem.rows.offset_information;
-    all.gradient.tail(offsets) += pull;
-    all.cost += problem.offsets.dot(pull);
-  }
-  return all;
-}
-
-}  // namespace
-
-MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
-  const Index columns = problem.layout.columns;
-  const Index offsets = problem.rows.offset_covariance.rows();
-  const NormalEquations all = assemble(problem, parts);
-  MarginalEquations reduced{{all.information.topLeftCorner(columns, columns).selfadjointView<Eigen::Lower>(),
-                             all.gradient.head(columns), all.cost},
-                            problem.offsets};
-  if (offsets > 0) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
-    const Eigen::MatrixXd coupling = factor.matrixL().solve(all.information.bottomLeftCorner(offsets, columns));
-    const Eigen::VectorXd gradient = factor.matrixL().solve(all.gradient.tail(offsets));
-    reduced.equations.information -= coupling.transpose() * coupling;
-    reduced.equations.gradient -= coupling.transpose() * gradient;
-    reduced.equations.cost -= gradient.squaredNorm();
-    reduced.offsets -= factor.matrixU().solve(gradient);
-  }
-  return reduced;
-}
-
-NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part) {
-  if (part.offsets.empty()) {
-    return part.equations;
-  }
-  ArmProblem alone;
-  alone.layout = problem.layout;
-  alone.offsets = problem.offsets(part.offsets);
-  add_parameters(alone.rows, problem.rows.offset_covariance(part.offsets, part.offsets));
-  PartEquations renumbered = part;
-  std::iota(renumbered.offsets.begin(), renumbered.offsets.end(), Index{0});
-  return marginal(alone, {renumbered}).equations;
-}
-
 std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept) {
   const std::size_t stretches = problem.rows.stretches.size();
   std::vector<PartEquations> parts(stretches + problem.rows.dwells.size());
@@ -308,11 +245,11 @@ std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmSt
     }
   };
   const Eigen::VectorXd flat = flattened(state, problem.layout);
-  const bool known = kept != nullptr && holds(*kept, problem, flat);
+  const bool known = kept != nullptr && brought_up_to(*kept, problem, flat);
   if (kept != nullptr && !known) {
     make_room(*kept, problem);
     kept->state = flat;
-    kept->offsets = problem.offsets;
+    kept->offsets = kept->linearised_at = problem.offsets;
   }
   for_each(problem, state, parts.size(), [&](Workspace& workspace, std::size_t i) {
     if (i < stretches) {
@@ -375,7 +312,7 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSys
   result.dwells.resize(dwells, channels);
   result.dwell_variance.resize(dwells, channels);
   result.dwells_normalized.resize(dwells, channels);
-  const bool known = kept != nullptr && holds(*kept, problem, flattened(state, problem.layout));
+  const bool known = kept != nullptr && brought_up_to(*kept, problem, flattened(state, problem.layout));
   for_each(problem, state, stretches, [&](Workspace& workspace, std::size_t i) {
     const MovingStretch& stretch = problem.rows.stretches[i];
     if (known && kept->stretches[i].size() > 0) {

@@ -68,6 +68,7 @@ struct ArmResiduals {
 struct KeptSystems {
   Eigen::VectorXd state;                   // they hold for, flattened
   Eigen::VectorXd offsets;
+  Eigen::VectorXd linearised_at;           // the offsets their derivatives hold for
   std::vector<Eigen::MatrixXd> stretches;  // their systems in order; without elements: too large to keep
 
   void forget() { state.resize(0); }
@@ -78,14 +79,6 @@ std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmSt
 NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state);
 // The part of it that the magnitude of gravity makes, which counts as data where that is known.
 NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state);
-// All parts in the layout's columns alone: the offsets are minimised over under their prior (Schur complement).
-struct MarginalEquations {
-  NormalEquations equations;
-  Eigen::VectorXd offsets;  // (K) that minimise the cost, for the layout's columns as they are
-};
-MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts);
-// One part so, as if no other knew its offsets.
-NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part);
 
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr);
 

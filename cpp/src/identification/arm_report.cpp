@@ -10,6 +10,8 @@
 #include <numeric>
 #include <optional>
 
+#include "arm_marginal.hpp"
+
 namespace circlepoint {
 namespace {
 
@@ -30,11 +32,13 @@ std::string joint_of(const std::string& name) {
 std::string remedy(const std::vector<std::string>& names) {
   bool line = false;
   bool sensor = false;
+  bool clock = false;
   std::vector<std::string> joints;
   for (const std::string& name : names) {
     const std::string joint = joint_of(name);
     line = line || !joint.empty();
     sensor = sensor || joint.empty();
+    clock = clock || name.starts_with("clock") || name == "gyroscope_delay";
     if (!joint.empty() && std::find(joints.begin(), joints.end(), joint) == joints.end()) {
       joints.push_back(joint);
     }
@@ -49,6 +53,9 @@ std::string remedy(const std::vector<std::string>& names) {
   }
   if (line) {
     return "move " + who + (joints.size() == 1 ? " alone, farther and faster" : " one at a time, each farther and faster");
+  }
+  if (clock) {
+    return "move the joints to and fro, faster";
   }
   return "hold still at more orientations of the sensor, six or more well apart";
 }

@@ -93,20 +93,8 @@ struct ArmRows {
 // The given rows of a stretch.
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);
 
-// Adds a term of constant or given shape.
-void add_term(MovingStretch& stretch, const OffsetTerm& term, const Eigen::VectorXd& position, const Eigen::VectorXd& velocity,
-              const Eigen::VectorXd& acceleration);
-void add_term(DwellRow& dwell, const OffsetTerm& term, double shape);
-
-// Adds parameters with the given prior; the first one's index.
-Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance);
-
-// Gives parameters from `first` on another prior, and the rows the part of them that is no longer unknown.
-void set_prior(ArmRows& rows, Index first, const Eigen::MatrixXd& covariance);
-void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift);
-
-// Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 10, above which arms
-// bend and ring (the paper's choice), nor less than 4; less where coarse counts, differentiated twice, would drown the readings.
+// Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 12, above which arms
+// bend and ring (the paper takes 10), nor less than 4; less where coarse counts, differentiated twice, would drown the readings.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
 // Where the arm is known, joints at rest yield to the loads they bear (arm_yield).

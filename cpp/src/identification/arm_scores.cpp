@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm_marginal.hpp"
+
 namespace circlepoint {
 namespace {
 
@@ -66,6 +68,17 @@ double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& 
     expected += leverage.trace() - leverage.cwiseProduct(leverage.transpose()).sum();
   }
   return expected > 0.0 ? seen / expected : 1.0;
+}
+
+double InflationSearch::next(double inflation, double ratio) {
+  constexpr double far_enough = 0.05;  // of two logarithms, to tell a slope
+  const Tried now{std::log(inflation), std::log(std::max(ratio, 1e-6))};
+  double slope = -1.0;
+  if (before_ && std::abs(now.inflation - before_->inflation) > far_enough) {
+    slope = std::clamp((now.ratio - before_->ratio) / (now.inflation - before_->inflation), -4.0, -1.0);
+  }
+  before_ = now;
+  return std::max(1.0, std::exp(now.inflation - now.ratio / slope));
 }
 
 }  // namespace circlepoint

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "arm_marginal.hpp"
+
 namespace circlepoint {
 namespace {
 

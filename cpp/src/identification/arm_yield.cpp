@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "arm_home.hpp"
+#include "arm_offsets.hpp"
 
 namespace circlepoint {
 namespace {

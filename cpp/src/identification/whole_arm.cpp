@@ -6,7 +6,9 @@
 
 #include "arm_encoder_errors.hpp"
 #include "arm_encoder_noise.hpp"
+#include "arm_knocks.hpp"
 #include "arm_layout.hpp"
+#include "arm_marginal.hpp"
 #include "arm_report.hpp"
 #include "arm_result.hpp"
 #include "arm_scores.hpp"

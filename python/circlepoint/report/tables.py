@@ -28,6 +28,7 @@ _sensor_rows = [  # key, label, names of the components, unit, factor from SI
     ("clock_offset", "clock offset", ("",), "ms", 1e3),
     ("clock_rate", "clock rate", ("",), "1", 1.0),
 ]
+_gyroscope_rows = [("bias", "gyroscope's bias", "xyz", "mrad/s", 1e3), ("delay", "gyroscope's delay", ("",), "ms", 1e3)]
 
 
 def joint_table(document: Document, truth: Mapping[str, Any] | None) -> str:
@@ -152,11 +153,15 @@ def hold_out_table(document: Document) -> str:
 def sensor_table(document: Document, truth: Mapping[str, Any] | None) -> str:
     """Return the table of the sensor's parameters."""
     sensor = document.get("sensor") or {}
+    gyroscope = sensor.get("gyroscope")
     known: Mapping[str, Any] = {**(truth or {}), **((truth or {}).get("sensor") or {})}
     names, values, stds, truths, units = [], [], [], [], []
-    for key, label, components, unit, scale in _sensor_rows:
-        estimate, deviation = _entry(sensor.get(key))
-        true_values = _entry(known.get(key))[0] or []
+    rows = [(sensor.get(row[0]), known.get(row[0]), *row[1:]) for row in _sensor_rows]
+    if gyroscope is not None:
+        rows += [(gyroscope.get(row[0]), None, *row[1:]) for row in _gyroscope_rows]
+    for entry, true_entry, label, components, unit, scale in rows:
+        estimate, deviation = _entry(entry)
+        true_values = _entry(true_entry)[0] or []
         if estimate is None:
             estimate, deviation = [None], []
         for k, value in enumerate(estimate):
@@ -175,7 +180,7 @@ def sensor_table(document: Document, truth: Mapping[str, Any] | None) -> str:
     if any(any(character.isdigit() for character in text) for text in truths):
         columns.append(Column("true", numbers(truths)))
     columns.append(Column("unit", units, "name"))
-    return table(columns, "Accelerometer")
+    return table(columns, "Accelerometer" if gyroscope is None else "Accelerometer and gyroscope")
 
 
 def frame_table(title: str, matrix: Any) -> str:

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "arm_noise.hpp"
+#include "arm_scores.hpp"
 
 namespace circlepoint {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <random>
 
+#include "arm_offsets.hpp"
 #include "arm_problem.hpp"
+#include "arm_solve.hpp"
 
 namespace circlepoint {
 namespace {
@@ -13,7 +15,7 @@ struct ProblemCase {
   ArmState state;
 };
 
-ProblemCase a_problem() {
+ProblemCase a_problem(Index channels = 3) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
   const auto matrix = [&](Index rows, Index columns) {
@@ -34,23 +36,23 @@ ProblemCase a_problem() {
   problem.layout.claim_lines(state.axes, {true, true});
   problem.layout.up_gravity = problem.layout.claim(3);
   problem.layout.clock_offset = problem.layout.claim(1);
-  problem.rows.channels = 3;
+  problem.rows.channels = channels;
   MovingStretch stretch;
   stretch.time = Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
   stretch.position = matrix(rows, joints);
   stretch.velocity = matrix(rows, joints);
   stretch.acceleration = matrix(rows, joints);
   stretch.jerk = matrix(rows, joints);
-  stretch.reading = 9.0 * matrix(rows, 3);
+  stretch.reading = 9.0 * matrix(rows, channels);
   stretch.noise = 0;
   const OffsetTerm term{0, add_parameters(problem.rows, Eigen::MatrixXd::Constant(1, 1, 1e-6))};
-  add_term(stretch, term, Eigen::VectorXd::Ones(rows), Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(rows));
+  add_term(stretch, term, Eigen::VectorXd::Ones(rows), matrix(rows, 1), matrix(rows, 1));
   problem.rows.stretches = {stretch};
   DwellRow dwell;
   dwell.position = matrix(joints, 1);
   dwell.position_variance = Eigen::VectorXd::Constant(joints, 1e-8);
-  dwell.reading = 9.0 * matrix(3, 1);
-  dwell.variance = Eigen::VectorXd::Constant(3, 1e-4);
+  dwell.reading = 9.0 * matrix(channels, 1);
+  dwell.variance = Eigen::VectorXd::Constant(channels, 1e-4);
   problem.rows.dwells = {dwell};
   problem.offsets = Eigen::VectorXd::Zero(1);
   problem.noise = white_noise(problem.rows, 0.1, 0.02, 0.01);
@@ -85,8 +87,8 @@ TEST(KeptSystemsTest, ServeAnyNoiseAtTheirState) {
 }
 
 TEST(KeptSystemsTest, FollowSmallStepsOfTheOffsetsAndAreMadeAnewForLargeOnes) {
-  for (const double step : {1e-7, 1e-5, 1e-4, 0.1}) {
-    ProblemCase given = a_problem();
+  for (const double step : {1e-7, 9e-6, 1e-4, 0.1}) {
+    ProblemCase given = a_problem(6);
     KeptSystems kept;
     linearise_data(given.problem, given.state, &kept);
     given.problem.offsets[0] += step;
@@ -95,6 +97,48 @@ TEST(KeptSystemsTest, FollowSmallStepsOfTheOffsetsAndAreMadeAnewForLargeOnes) {
     const Eigen::MatrixXd moving = residuals(given.problem, given.state, &kept).moving[0];
     EXPECT_LE((moving - residuals(given.problem, given.state).moving[0]).cwiseAbs().maxCoeff(), 1e-8);
   }
+}
+
+TEST(KeptSystemsTest, AreMadeAnewOnceManySmallStepsHaveGoneFar) {
+  ProblemCase given = a_problem();
+  KeptSystems kept;
+  linearise_data(given.problem, given.state, &kept);
+  for (int step = 0; step < 3; ++step) {
+    given.problem.offsets[0] += 4e-6;
+    linearise_data(given.problem, given.state, &kept);
+  }
+  EXPECT_EQ(kept.linearised_at, given.problem.offsets);
+}
+
+// The gyroscope's rows know the joints' offsets too.
+TEST(LineariseDataTest, OffsetsColumnsAreThoseOfFiniteDifferences) {
+  ProblemCase given = a_problem(6);
+  KeptSystems kept;
+  linearise_data(given.problem, given.state, &kept);
+  const Eigen::VectorXd column = kept.stretches[0].col(given.problem.layout.columns);
+  const auto moving = [&](double offset) {
+    given.problem.offsets[0] = offset;
+    return Eigen::MatrixXd(residuals(given.problem, given.state).moving[0]);
+  };
+  constexpr double step = 1e-5;
+  const Eigen::MatrixXd expected = (moving(step) - moving(-step)) / (2.0 * step);
+  EXPECT_GT(expected.rightCols<3>().norm(), 1.0);
+  EXPECT_LT((column - expected.reshaped()).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SolveTest, TakesNoStepWhereNothingIsLeftToGain) {
+  ProblemCase given = a_problem();
+  const ArmResiduals off = residuals(given.problem, given.state);
+  given.problem.rows.stretches[0].reading += 0.99 * off.moving[0];  // near what the model says
+  given.problem.rows.dwells[0].reading += 0.99 * off.dwells.row(0).transpose();
+  KeptSystems kept;
+  const ArmSolution there = solve(given.problem, given.state, kept, 200);
+  ASSERT_TRUE(there.converged);
+  const ArmSolution again = solve(given.problem, there.state, kept, 200, 0.1);
+  EXPECT_EQ(again.iterations, 1);  // the evaluation at the start
+  EXPECT_TRUE(again.converged);
+  EXPECT_EQ(flattened(again.state, given.problem.layout), flattened(there.state, given.problem.layout));
+  expect_same(again.parts, linearise_data(given.problem, there.state), 0.0);
 }
 
 TEST(KeptSystemsTest, AreMadeAnewAtAnotherState) {
