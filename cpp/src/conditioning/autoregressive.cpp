@@ -97,8 +97,13 @@ void whiten(const AutoregressiveModel& model, Eigen::Ref<Eigen::MatrixXd> column
   for (Index column = 0; column < columns.cols(); ++column) {
     auto x = columns.col(column);
     rest = x.tail(steady);
-    for (Index lag = 1; lag <= head; ++lag) {
-      rest -= model.coefficients(head, lag - 1) * x.segment(head - lag, steady);
+    const auto predicted = [&](Index lag) { return model.coefficients(head, lag - 1) * x.segment(head - lag, steady); };
+    Index next = 1;
+    for (; next + 3 <= head; next += 4) {  // four at once: one pass over the memory
+      rest -= (predicted(next) + predicted(next + 1)) + (predicted(next + 2) + predicted(next + 3));
+    }
+    for (; next <= head; ++next) {
+      rest -= predicted(next);
     }
     // The first samples by the predictors of lower order, from the last on, so that each still finds its predecessors as they were.
     for (Index t = head; t-- > 0;) {

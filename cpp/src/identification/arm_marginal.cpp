@@ -1,9 +1,6 @@
 #include "arm_marginal.hpp"
 
 #include <Eigen/Cholesky>
-#include <numeric>
-
-#include "arm_offsets.hpp"
 
 namespace circlepoint {
 
@@ -41,19 +38,16 @@ NormalEquations assemble(const ArmProblem& problem, const std::vector<PartEquati
   return all;
 }
 
-}  // namespace
-
-MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
-  const Index columns = problem.layout.columns;
-  const Index offsets = problem.rows.offset_covariance.rows();
-  const NormalEquations all = assemble(problem, parts);
-  MarginalEquations reduced{{all.information.topLeftCorner(columns, columns).selfadjointView<Eigen::Lower>(),
-                             all.gradient.head(columns), all.cost},
-                            problem.offsets};
-  if (offsets > 0) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(offsets, offsets));
-    const Eigen::MatrixXd coupling = factor.matrixL().solve(all.information.bottomLeftCorner(offsets, columns));
-    const Eigen::VectorXd gradient = factor.matrixL().solve(all.gradient.tail(offsets));
+// Minimised over the last columns: what is left for the first `columns`, and where the last ones then are. Of `all`, the lower triangle.
+MarginalEquations without_last(const NormalEquations& all, Index columns) {
+  const Index last = all.gradient.size() - columns;
+  MarginalEquations reduced{{all.information.topLeftCorner(columns, columns).selfadjointView<Eigen::Lower>(), all.gradient.head(columns),
+                             all.cost},
+                            Eigen::VectorXd::Zero(last)};
+  if (last > 0) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(all.information.bottomRightCorner(last, last));
+    const Eigen::MatrixXd coupling = factor.matrixL().solve(all.information.bottomLeftCorner(last, columns));
+    const Eigen::VectorXd gradient = factor.matrixL().solve(all.gradient.tail(last));
     reduced.equations.information -= coupling.transpose() * coupling;
     reduced.equations.gradient -= coupling.transpose() * gradient;
     reduced.equations.cost -= gradient.squaredNorm();
@@ -62,17 +56,27 @@ MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEqua
   return reduced;
 }
 
+}  // namespace
+
+MarginalEquations marginal(const ArmProblem& problem, const std::vector<PartEquations>& parts) {
+  MarginalEquations reduced = without_last(assemble(problem, parts), problem.layout.columns);
+  reduced.offsets += problem.offsets;
+  return reduced;
+}
+
 NormalEquations marginal_part(const ArmProblem& problem, const PartEquations& part) {
-  if (part.offsets.empty()) {
+  const auto offsets = static_cast<Index>(part.offsets.size());
+  if (offsets == 0) {
     return part.equations;
   }
-  ArmProblem alone;
-  alone.layout = problem.layout;
-  alone.offsets = problem.offsets(part.offsets);
-  add_parameters(alone.rows, problem.rows.offset_covariance(part.offsets, part.offsets));
-  PartEquations renumbered = part;
-  std::iota(renumbered.offsets.begin(), renumbered.offsets.end(), Index{0});
-  return marginal(alone, {renumbered}).equations;
+  NormalEquations all = part.equations;
+  const Eigen::MatrixXd prior = problem.rows.offset_covariance(part.offsets, part.offsets).inverse();
+  const Eigen::VectorXd at = problem.offsets(part.offsets);
+  const Eigen::VectorXd pull = prior * at;
+  all.information.bottomRightCorner(offsets, offsets) += prior;
+  all.gradient.tail(offsets) += pull;
+  all.cost += at.dot(pull);
+  return without_last(all, problem.layout.columns).equations;
 }
 
 }  // namespace circlepoint

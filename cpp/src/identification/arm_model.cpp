@@ -113,7 +113,7 @@ void ArmPredictor::forward(const JointInstant& instant, double further_delay) {
   }
 }
 
-// The part of backward() that angular velocity needs.
+// What of the sensor's angular velocity every link would turn: d w_sensor / d eta_w.
 void ArmPredictor::turn_back() {
   const auto tip = static_cast<std::size_t>(joints_);
   to_sensor_[tip].setIdentity();
@@ -126,8 +126,8 @@ void ArmPredictor::turn_back() {
 }
 
 void ArmPredictor::backward() {
-  turn_back();
   const auto tip = static_cast<std::size_t>(joints_);
+  to_sensor_[tip].setIdentity();
   place_[tip].setZero();
   place_rate_[tip].setZero();
   for (std::size_t k = tip + 1; k-- > 0;) {
@@ -138,10 +138,12 @@ void ArmPredictor::backward() {
       if (axis.type == JointType::prismatic) {
         place_[k] = place_[k + 1] + (now_.position[j] - state_.reference[j]) * z;
         place_rate_[k] = place_rate_[k + 1] + now_.velocity[j] * z;
+        to_sensor_[k] = to_sensor_[k + 1];
       } else {
         const Eigen::Vector3d arm = turn_[k] * (place_[k + 1] - axis.line.point);
         place_[k] = axis.line.point + arm;
         place_rate_[k] = now_.velocity[j] * z.cross(arm) + turn_[k] * place_rate_[k + 1];
+        to_sensor_[k] = turn_[k] * to_sensor_[k + 1];
       }
     }
     // A_k of the header, as the sensor reads it; products of skew-symmetric matrices written out as outer products.
@@ -232,11 +234,14 @@ void ArmPredictor::by_clocks_and_encoders(Eigen::Ref<Eigen::Matrix3Xd> jacobian)
     const auto column = [&](double position, double velocity, double acceleration) -> Eigen::Vector3d {
       return by_joint_.position.col(j) * position + by_joint_.velocity.col(j) * velocity + by_joint_.acceleration.col(j) * acceleration;
     };
-    const double sine = std::sin(q);
-    const double cosine = std::cos(q);
+    const double by_cosine = state_.eccentricity(0, j);
+    const double by_sine = state_.eccentricity(1, j);
+    const bool eccentric = eccentricity >= 0 || by_cosine != 0.0 || by_sine != 0.0;
+    const double sine = eccentric ? std::sin(q) : 0.0;
+    const double cosine = eccentric ? std::cos(q) : 0.0;
     if (layout_.clock_offset >= 0) {
-      const double slope = 1.0 + state_.encoder_gain[j] - state_.eccentricity(0, j) * sine + state_.eccentricity(1, j) * cosine;
-      const double curvature = -state_.eccentricity(0, j) * cosine - state_.eccentricity(1, j) * sine;
+      const double slope = 1.0 + state_.encoder_gain[j] - by_cosine * sine + by_sine * cosine;
+      const double curvature = -by_cosine * cosine - by_sine * sine;
       const double third = 1.0 + state_.encoder_gain[j] - slope;
       const double jerk = stamped_.jerk[j];
       jacobian.col(layout_.clock_offset) -= column(slope * q_dot, slope * q_ddot + curvature * q_dot * q_dot,
@@ -267,9 +272,7 @@ Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant) {
 Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
   jacobian.setZero();
   const Eigen::Vector3d reading = angular_rate(instant);
-  if (state_.gyroscope_delay != 0.0) {
-    turn_back();
-  }
+  turn_back();
   const Eigen::Vector3d& w = rate_.back();
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     if (layout_.lines[i] >= 0) {

@@ -132,19 +132,16 @@ DwellSystem dwell_system(const ArmProblem& problem, ArmPredictor& predictor, con
   return system;
 }
 
-NormalEquations normal_equations(const Eigen::MatrixXd& system) {
+// Of a system whose last column is the residual.
+void set_normal_equations(NormalEquations& equations, const Eigen::MatrixXd& system) {
   const Index columns = system.cols() - 1;
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns + 1, columns + 1);
-  product.selfadjointView<Eigen::Lower>().rankUpdate(system.transpose());
-  NormalEquations equations;
-  equations.gradient = product.row(columns).head(columns);
-  equations.cost = product(columns, columns);
-  equations.information.resize(columns, columns);
-  for (Index column = 0; column < columns; ++column) {
-    equations.information.col(column).tail(columns - column) = product.col(column).segment(column, columns - column);
-    equations.information.row(column).tail(columns - column) = product.col(column).segment(column, columns - column).transpose();
-  }
-  return equations;
+  const auto jacobian = system.leftCols(columns);
+  const auto residual = system.col(columns);
+  equations.information.setZero(columns, columns);
+  equations.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
+  equations.information.triangularView<Eigen::StrictlyUpper>() = equations.information.transpose();
+  equations.gradient.noalias() = jacobian.transpose() * residual;
+  equations.cost = residual.squaredNorm();
 }
 
 // What a thread works with.
@@ -235,11 +232,13 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   return *this;
 }
 
-std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept) {
+std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept,
+                                          std::vector<PartEquations> parts) {
   const std::size_t stretches = problem.rows.stretches.size();
-  std::vector<PartEquations> parts(stretches + problem.rows.dwells.size());
+  parts.resize(stretches + problem.rows.dwells.size());
   const auto finish = [&parts](std::size_t i, const Eigen::MatrixXd& system, const std::vector<OffsetTerm>& offsets) {
-    parts[i].equations = normal_equations(system);
+    set_normal_equations(parts[i].equations, system);
+    parts[i].offsets.clear();
     for (const OffsetTerm& term : offsets) {
       parts[i].offsets.push_back(term.parameter);
     }

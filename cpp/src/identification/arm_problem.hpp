@@ -74,8 +74,9 @@ struct KeptSystems {
   void forget() { state.resize(0); }
 };
 
-// Data part: stretches first, in order, then each dwell.
-std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr);
+// Data part: stretches first, in order, then each dwell. `parts` are overwritten: theirs is the memory.
+std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr,
+                                          std::vector<PartEquations> parts = {});
 NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state);
 // The part of it that the magnitude of gravity makes, which counts as data where that is known.
 NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state);

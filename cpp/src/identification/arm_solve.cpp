@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "arm_marginal.hpp"
@@ -109,7 +110,7 @@ class ArmCost final : public ceres::CostFunction {
  private:
   void evaluate(const ArmState& state) const {
     const Index columns = problem_.layout.columns;
-    parts_ = linearise_data(problem_, state, &kept_);
+    parts_ = linearise_data(problem_, state, &kept_, std::move(parts_));
     NormalEquations all = marginal(problem_, parts_).equations;
     all += linearise_prior(problem_, state);
     // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
