@@ -186,7 +186,8 @@ def test_the_exported_dh_parameters_move_the_end_point_as_the_chain_does(recordi
     )
 
 
-def test_lines_are_given_at_the_reference_configuration_asked_for(recording):
+def test_lines_are_given_at_the_reference_configuration_asked_for():
+    recording = recorded(seed=5)  # in which no row lies at the limit of a knock, cut in one and not in the other
     reference = [0.3, -0.8, 1.4, 0.2]
     chosen = calibrate(recording, an_arm())
     asked = calibrate(recording, an_arm(), reference_configuration=reference)
@@ -195,8 +196,7 @@ def test_lines_are_given_at_the_reference_configuration_asked_for(recording):
     for joint, theirs in zip(asked.joints.joints, carried.axes, strict=True):
         std = np.sqrt(np.diag(joint.axis.covariance))
         difference = circlepoint.local_coordinates(joint.axis.screw.line, theirs.line)
-        # Rows at the limit of a knock may be cut in one and not in the other.
-        assert np.all(np.abs(difference) < 0.2 * std)
+        assert np.all(np.abs(difference) < 0.05 * std)
 
 
 @pytest.mark.parametrize(

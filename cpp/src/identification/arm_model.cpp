@@ -113,21 +113,17 @@ void ArmPredictor::forward(const JointInstant& instant, double further_delay) {
   }
 }
 
-// What of the sensor's angular velocity every link would turn: d w_sensor / d eta_w.
 void ArmPredictor::turn_back() {
   const auto tip = static_cast<std::size_t>(joints_);
   to_sensor_[tip].setIdentity();
-  for (std::size_t k = tip + 1; k-- > 0;) {
-    if (k < tip) {
-      to_sensor_[k] = state_.axes[k].type == JointType::prismatic ? to_sensor_[k + 1] : turn_[k] * to_sensor_[k + 1];
-    }
-    rate_by_rotation_[k] = to_sensor_[k].transpose() * skew(rate_[k]);
+  for (std::size_t k = tip; k-- > 0;) {
+    to_sensor_[k] = turn_[k] * to_sensor_[k + 1];  // a joint that slides turns nothing
   }
 }
 
 void ArmPredictor::backward() {
+  turn_back();
   const auto tip = static_cast<std::size_t>(joints_);
-  to_sensor_[tip].setIdentity();
   place_[tip].setZero();
   place_rate_[tip].setZero();
   for (std::size_t k = tip + 1; k-- > 0;) {
@@ -138,12 +134,10 @@ void ArmPredictor::backward() {
       if (axis.type == JointType::prismatic) {
         place_[k] = place_[k + 1] + (now_.position[j] - state_.reference[j]) * z;
         place_rate_[k] = place_rate_[k + 1] + now_.velocity[j] * z;
-        to_sensor_[k] = to_sensor_[k + 1];
       } else {
         const Eigen::Vector3d arm = turn_[k] * (place_[k + 1] - axis.line.point);
         place_[k] = axis.line.point + arm;
         place_rate_[k] = now_.velocity[j] * z.cross(arm) + turn_[k] * place_rate_[k + 1];
-        to_sensor_[k] = turn_[k] * to_sensor_[k + 1];
       }
     }
     // A_k of the header, as the sensor reads it; products of skew-symmetric matrices written out as outer products.
@@ -272,7 +266,12 @@ Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant) {
 Eigen::Vector3d ArmPredictor::angular_rate(const JointInstant& instant, Eigen::Ref<Eigen::Matrix3Xd> jacobian) {
   jacobian.setZero();
   const Eigen::Vector3d reading = angular_rate(instant);
-  turn_back();
+  if (state_.gyroscope_delay != 0.0) {
+    turn_back();
+  }
+  for (std::size_t k = 0; k < rate_.size(); ++k) {
+    rate_by_rotation_[k] = to_sensor_[k].transpose() * skew(rate_[k]);
+  }
   const Eigen::Vector3d& w = rate_.back();
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     if (layout_.lines[i] >= 0) {

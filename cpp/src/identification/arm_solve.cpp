@@ -74,7 +74,7 @@ class ArmManifold final : public ceres::Manifold {
 // the same Gauss-Newton matrix, at any number of samples.
 class ArmCost final : public ceres::CostFunction {
  public:
-  ArmCost(const ArmProblem& problem, const FlatState& flat, KeptSystems& kept) : problem_(problem), flat_(flat), kept_(kept) {
+  ArmCost(const ArmProblem& problem, const FlatState& flat, KeptSystems* kept) : problem_(problem), flat_(flat), kept_(kept) {
     set_num_residuals(static_cast<int>(problem.layout.columns) + 1);
     mutable_parameter_block_sizes()->push_back(flat.size());
   }
@@ -104,13 +104,13 @@ class ArmCost final : public ceres::CostFunction {
   // The data's equations at `block`, which is mostly where the solver looked last.
   std::vector<PartEquations> parts_at(const std::vector<double>& block) const {
     const Eigen::Map<const Eigen::VectorXd> here(block.data(), flat_.size());
-    return evaluated_ == here ? std::move(parts_) : linearise_data(problem_, flat_.read(block.data()), &kept_);
+    return evaluated_ == here ? std::move(parts_) : linearise_data(problem_, flat_.read(block.data()), kept_);
   }
 
  private:
   void evaluate(const ArmState& state) const {
     const Index columns = problem_.layout.columns;
-    parts_ = linearise_data(problem_, state, &kept_, std::move(parts_));
+    parts_ = linearise_data(problem_, state, kept_, std::move(parts_));
     NormalEquations all = marginal(problem_, parts_).equations;
     all += linearise_prior(problem_, state);
     // Directions nothing is known of would stop the factorisation; what is added is far below rounding of the others.
@@ -130,7 +130,7 @@ class ArmCost final : public ceres::CostFunction {
 
   const ArmProblem& problem_;
   const FlatState& flat_;
-  KeptSystems& kept_;
+  KeptSystems* kept_;
   mutable Eigen::VectorXd evaluated_;  // where the rest was evaluated
   mutable std::vector<PartEquations> parts_;
   mutable Eigen::VectorXd residual_;
@@ -159,7 +159,7 @@ class EndAtMinimum final : public ceres::IterationCallback {
 
 }  // namespace
 
-ArmSolution solve(const ArmProblem& problem, const ArmState& start, KeptSystems& kept, int max_iterations, double negligible_change) {
+ArmSolution solve(const ArmProblem& problem, const ArmState& start, int max_iterations, double negligible_change, KeptSystems* kept) {
   const FlatState flat(start, problem.layout);
   std::vector<double> block(static_cast<std::size_t>(flat.size()));
   flat.write(start, block.data());

@@ -72,7 +72,6 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
   small.layout.claim_lines(known_state.axes, moves);
   small.layout.up_gravity = small.layout.claim(3);
 
-  KeptSystems kept;
   double best_cost = std::numeric_limits<double>::infinity();
   int repeats = 0;
   for (int trial = 0; trial < random_starts && repeats < 3; ++trial) {
@@ -84,7 +83,7 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
     if (start.up_gravity.norm() < 1.0) {
       start.up_gravity = problem.prior.gravity * random_direction(random);
     }
-    ArmSolution solution = solve(small, start, kept, 60);
+    ArmSolution solution = solve(small, start, 60);
     ++best.tried;
     if (!std::isfinite(solution.cost)) {
       continue;

@@ -148,7 +148,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   if (problem.rows.yields) {
     // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
-    const ArmSolution first = solve(problem, state, kept, 50, last_change);
+    const ArmSolution first = solve(problem, state, 50, last_change, &kept);
     result.iterations += first.iterations;
     state = first.state;
     const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
@@ -168,7 +168,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   int since = 0;  // the pass after the columns last changed
   int last = options.max_passes;
   for (int pass = 0; pass < last; ++pass) {
-    ArmSolution solution = solve(problem, state, kept, 50, last_change);
+    ArmSolution solution = solve(problem, state, 50, last_change, &kept);
     result.iterations += solution.iterations;
     const ArmState former = state;
     state = solution.state;
@@ -204,17 +204,16 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       retie(problem.rows, problem.offsets);
       kept.forget();
     }
+    problem.noise.encoder.clear();  // of these rows at this state
     const double inflation = pass > since ? search.next(problem.noise.inflation, ratio) : 1.0;
     if (pass >= cutting && pass < cutting + passes_that_cut) {
       const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
       result.outliers += cut;
       if (cut > 0) {
-        problem.noise.encoder.clear();
         kept.forget();
         now = residuals(problem, state);
       }
     }
-    problem.noise.encoder.clear();
     const ArmNoise before = std::move(problem.noise);
     problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns),
                                    inflation, encoder_covariances(problem, state), pass > since ? &before : nullptr,

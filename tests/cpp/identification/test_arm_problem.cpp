@@ -132,9 +132,9 @@ TEST(SolveTest, TakesNoStepWhereNothingIsLeftToGain) {
   given.problem.rows.stretches[0].reading += 0.99 * off.moving[0];  // near what the model says
   given.problem.rows.dwells[0].reading += 0.99 * off.dwells.row(0).transpose();
   KeptSystems kept;
-  const ArmSolution there = solve(given.problem, given.state, kept, 200);
+  const ArmSolution there = solve(given.problem, given.state, 200, 0.0, &kept);
   ASSERT_TRUE(there.converged);
-  const ArmSolution again = solve(given.problem, there.state, kept, 200, 0.1);
+  const ArmSolution again = solve(given.problem, there.state, 200, 0.1, &kept);
   EXPECT_EQ(again.iterations, 1);  // the evaluation at the start
   EXPECT_TRUE(again.converged);
   EXPECT_EQ(flattened(again.state, given.problem.layout), flattened(there.state, given.problem.layout));
