@@ -27,7 +27,7 @@ class Lost:
     Attributes
     ----------
     worker : str
-        Address of the last one.
+        Address of the last one, or what it was.
     """
 
     worker: str

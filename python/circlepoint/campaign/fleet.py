@@ -9,14 +9,9 @@ from __future__ import annotations
 import contextlib
 import errno
 import json
-import multiprocessing
 import shutil
-import signal
 import tempfile
-import threading
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import resource_tracker
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -27,6 +22,7 @@ from circlepoint.arm import load_arm
 from circlepoint.atomic import write_atomically
 from circlepoint.campaign import folder as folders
 from circlepoint.campaign.cluster import Lost, on_cluster
+from circlepoint.campaign.processes import in_processes
 from circlepoint.document import Document, generator_entry
 from circlepoint.failures import explain
 from circlepoint.report.rounding import ABSENT, significant
@@ -35,8 +31,7 @@ from circlepoint.sensor_presets import load_sensor
 from circlepoint.text_table import aligned
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator, Sequence
-    from concurrent.futures import Future
+    from collections.abc import Generator, Sequence
 
     from circlepoint.campaign.fleet_config import Fleet, FleetLog
     from circlepoint.campaign.run import Watcher
@@ -131,7 +126,7 @@ def run_fleet(
         elif min(workers, len(waiting)) <= 1:
             run = ((log, calibrate_log(log, scratch)) for log in waiting)
         else:
-            run = _in_processes(waiting, min(workers, len(waiting)), scratch)
+            run = _here(waiting, min(workers, len(waiting)), scratch)
         # As they are before the calibration: what changes meanwhile has not been calibrated.
         settings = {log.name: log.settings() for log in waiting}
         try:
@@ -311,6 +306,13 @@ def _table(rows: Sequence[Document], columns: dict[str, pa.DataType]) -> pa.Tabl
     return pa.table({name: pa.array([row[name] for row in rows], kind) for name, kind in columns.items()})
 
 
+def _here(logs: list[FleetLog], workers: int, scratch: Path) -> Generator[tuple[FleetLog, Calibrated]]:
+    """Calibrate in processes; a log that takes its process down fails alone."""
+    with contextlib.closing(in_processes(partial(calibrate_log, scratch=scratch), logs, workers)) as run:
+        for log, calibrated in run:
+            yield log, _killed(log, _KILLED) if isinstance(calibrated, Lost) else calibrated
+
+
 def _there(logs: list[FleetLog], scheduler: str, watcher: Watcher | None) -> Generator[tuple[FleetLog, Calibrated]]:
     """Calibrate on a cluster; a log that takes its workers down fails alone."""
     tell = None if watcher is None else watcher.tell
@@ -320,31 +322,6 @@ def _there(logs: list[FleetLog], scheduler: str, watcher: Watcher | None) -> Gen
 
 def _on_worker(_: None, log: FleetLog) -> Calibrated:
     return calibrate_log(log)
-
-
-def _in_processes(logs: list[FleetLog], workers: int, scratch: Path) -> Generator[tuple[FleetLog, Calibrated]]:
-    """Calibrate in processes; a log that takes its process down fails alone."""
-    waiting = list(logs)
-    suspects: list[FleetLog] = []  # in hand when a process was killed
-    while waiting:
-        running: dict[Any, FleetLog] = {}
-        with _pool(workers) as pool:
-            try:
-                while waiting or running:
-                    while waiting and len(running) < workers:
-                        running[_submit(pool, waiting[0], scratch)] = waiting[0]
-                        del waiting[0]
-                    for future in wait(running, return_when=FIRST_COMPLETED).done:
-                        calibrated = future.result()
-                        yield running.pop(future), calibrated
-            except BrokenProcessPool:
-                suspects += running.values()
-    for log in suspects:
-        with _pool(1) as pool:
-            try:
-                yield log, _submit(pool, log, scratch).result()
-            except BrokenProcessPool:
-                yield log, _killed(log, _KILLED)
 
 
 def _killed(log: FleetLog, error: str) -> Calibrated:
@@ -362,46 +339,3 @@ def _failed(log: FleetLog, error: str | None = None) -> Document:
         "missing": [],
         "findings": [],
     }
-
-
-@contextlib.contextmanager
-def _pool(workers: int) -> Iterator[ProcessPoolExecutor]:
-    """Give processes, which are not waited for when this one is interrupted or has given up."""
-    others = set(multiprocessing.active_children())
-    with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")) as pool:
-        try:
-            yield pool
-        except BaseException:
-            for process in set(multiprocessing.active_children()) - others:
-                process.kill()
-            raise
-
-
-def _submit(pool: ProcessPoolExecutor, log: FleetLog, scratch: Path) -> Future[Calibrated]:
-    """Submit a log; the process this may begin leaves an interruption from the keyboard to this one."""
-    resource_tracker.ensure_running()  # whose own start would let the signal through
-    with _interrupted_later():
-        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # the process inherits it
-        try:
-            return pool.submit(calibrate_log, log, scratch)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-
-
-@contextlib.contextmanager
-def _interrupted_later() -> Iterator[None]:
-    """Put an interruption from the keyboard off to the end: a process half begun would be lost sight of.
-
-    Blocking the signal in this thread is not enough: another thread takes it, and this one hears of it all the same.
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    interruptions: list[int] = []
-    handler = signal.signal(signal.SIGINT, lambda number, _: interruptions.append(number))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler if handler is None else handler)
-        if interruptions:
-            signal.raise_signal(signal.SIGINT)
