@@ -137,8 +137,9 @@ References
 ----------
 docs/method, sections 2 and 3.
 )");
-  m.def("end_point_std", &end_point_std, py::arg("chain"), py::arg("line_covariance"), py::arg("configurations"),
-        release_gil(), R"(
+  m.def("end_point_std",
+        py::overload_cast<const ScrewChain&, const Eigen::Ref<const Eigen::MatrixXd>&, const Eigen::Ref<const SamplesX>&>(&end_point_std),
+        py::arg("chain"), py::arg("line_covariance"), py::arg("configurations"), release_gil(), R"(
 Predicted standard deviation of the sensor's position.
 
 Parameters

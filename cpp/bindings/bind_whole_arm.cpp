@@ -125,6 +125,30 @@ References
 ----------
 docs/method, section 8.
 )");
+  m.def("end_point_std", py::overload_cast<const WholeArmCalibration&, const Eigen::Ref<const SamplesX>&>(&end_point_std),
+        py::arg("calibration"), py::arg("configurations"), release_gil(), R"(
+Predicted standard deviation of the sensor's position, from the lines' errors and those of the encoders' corrections.
+
+Parameters
+----------
+calibration : WholeArmCalibration
+configurations : (P, n) float64
+    rad or m, as the joints stand when corrected for what their encoders were found to be off.
+
+Returns
+-------
+(P,) float64
+    Root of the position covariance's trace, m.
+
+Raises
+------
+NotIdentifiable
+    A joint has no axis.
+
+References
+----------
+docs/method, sections 3.7 and 8.5.
+)");
 }
 
 }  // namespace circlepoint::bindings

@@ -3919,6 +3919,7 @@ def end_point_error(estimate: ScrewChain, truth: ScrewChain, configurations: typ
     InvalidInput
         For numbers of joints that differ, and for no configuration.
     """
+@typing.overload
 def end_point_std(chain: ScrewChain, line_covariance: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.f_contiguous"], configurations: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
     """
     Predicted standard deviation of the sensor's position.
@@ -3935,6 +3936,31 @@ def end_point_std(chain: ScrewChain, line_covariance: typing.Annotated[numpy.typ
     -------
     (P,) float64
         Root of the position covariance's trace, m.
+    """
+@typing.overload
+def end_point_std(calibration: WholeArmCalibration, configurations: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Predicted standard deviation of the sensor's position, from the lines' errors and those of the encoders' corrections.
+
+    Parameters
+    ----------
+    calibration : WholeArmCalibration
+    configurations : (P, n) float64
+        rad or m, as the joints stand when corrected for what their encoders were found to be off.
+
+    Returns
+    -------
+    (P,) float64
+        Root of the position covariance's trace, m.
+
+    Raises
+    ------
+    NotIdentifiable
+        A joint has no axis.
+
+    References
+    ----------
+    docs/method, sections 3.7 and 8.5.
     """
 def fit_axis_direction(specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"]) -> AxisDirectionFit:
     """

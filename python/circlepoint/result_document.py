@@ -305,7 +305,13 @@ def _end_point_entry(
 ) -> Document | None:
     if chain is None:
         return None
-    std = circlepoint.end_point_std(chain, joints.covariance, workspace(arm, joints.reference_configuration))
+    return end_point_entry(
+        circlepoint.end_point_std(chain, joints.covariance, workspace(arm, joints.reference_configuration))
+    )
+
+
+def end_point_entry(std: NDArray[np.float64]) -> Document:
+    """Return the entry of the end-point's standard deviations (P,), m, over the workspace."""
     return {
         "rms": float(np.sqrt(np.mean(np.square(std)))),
         "max": float(np.max(std)),

@@ -114,7 +114,7 @@ JointCalibration calibrate_joints(const Recording& recording, const Segmentation
                                   const JointCalibrationOptions& options = {});
 
 /// Predicted standard deviation of the sensor's position over configurations (P, n): (P) m, the root of the covariance's
-/// trace, from the lines' covariance alone.
+/// trace, from the lines' covariance alone (whole_arm.hpp: with the encoders').
 Eigen::VectorXd end_point_std(const ScrewChain& chain, const Eigen::Ref<const Eigen::MatrixXd>& line_covariance,
                               const Eigen::Ref<const SamplesX>& configurations);
 

@@ -126,4 +126,9 @@ struct WholeArmCalibration {
 WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmentation& segmentation,
                                         const WholeArmOptions& options = {});
 
+/// Predicted standard deviation of the sensor's position over configurations (P, n) rad or m, as the joints stand when corrected for
+/// what their encoders were found to be off: (P) m, the root of the covariance's trace, of the lines and of those corrections.
+/// Raises NotIdentifiable where joints are missing.
+Eigen::VectorXd end_point_std(const WholeArmCalibration& calibration, const Eigen::Ref<const SamplesX>& configurations);
+
 }  // namespace circlepoint
