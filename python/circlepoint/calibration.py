@@ -12,10 +12,11 @@ from circlepoint.dh_rows import to_rows
 from circlepoint.nominal import joint_types, nominal_dh_chain
 from circlepoint.result_document import result_document
 from circlepoint.sensor_presets import load_sensor
+from circlepoint.treatments import set_treatments, treatment_entries
 from circlepoint.whole_arm_document import with_whole_arm
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -137,6 +138,7 @@ def calibrate(
     sensor: circlepoint.AccelerometerSpecification | None = None,
     gravity: float = circlepoint.STANDARD_GRAVITY,
     reference_configuration: ArrayLike | None = None,
+    treatments: Mapping[str, circlepoint.ParameterTreatment] | None = None,
 ) -> Calibration:
     """Calibrate an arm from one recording.
 
@@ -156,6 +158,9 @@ def calibrate(
         Local magnitude, m/s^2.
     reference_configuration : array_like, shape (n,), optional
         rad or m; where the lines are given. Default: the dwell that serves most joints.
+    treatments : mapping of str to ParameterTreatment, optional
+        Of the whole-arm estimate's parameters, by group (`circlepoint.treatments.PARAMETER_GROUPS`): fixed, free, or
+        free with a prior. Default: as the sensor's data sheet says and the data can see.
 
     Returns
     -------
@@ -166,16 +171,18 @@ def calibrate(
     InvalidInput
         For a recording that does not fit the arm, or options out of range.
     """
+    if treatments and method != "whole-arm":
+        raise circlepoint.InvalidInput(
+            f"treatments of {', '.join(treatments)} are for the method whole-arm, asked for is {method}; leave them out"
+        )
     segmentation = circlepoint.segment(recording, circlepoint.SegmentationOptions(joint_types=joint_types(arm)))
     whole_arm = None
     if method == "whole-arm":
-        whole_arm = circlepoint.calibrate_whole_arm(
-            recording,
-            segmentation,
-            whole_arm_options(
-                arm, sensor, gravity, reference_configuration, two_clocks=recording.joint_timeline is not None
-            ),
+        options = whole_arm_options(
+            arm, sensor, gravity, reference_configuration, two_clocks=recording.joint_timeline is not None
         )
+        set_treatments(options, treatments or {})
+        whole_arm = circlepoint.calibrate_whole_arm(recording, segmentation, options)
         joints = whole_arm.joints
     else:
         joints = circlepoint.calibrate_joints(
@@ -186,6 +193,10 @@ def calibrate(
     document = result_document(
         arm, method=method, gravity=gravity, segmentation=segmentation, joints=joints, chain=chain, dh=dh
     )
+    if whole_arm is not None:
+        document = with_whole_arm(document, arm, whole_arm)
+    if treatments:
+        document["treatments"] = treatment_entries(treatments)
     return Calibration(
         arm=arm,
         recording=recording,
@@ -195,7 +206,7 @@ def calibrate(
         chain=chain,
         dh=dh,
         fits=tuple(NamedFit(arm.joints[fit.joint].name, fit) for fit in joints.fits),
-        document=document if whole_arm is None else with_whole_arm(document, arm, whole_arm),
+        document=document,
     )
 
 

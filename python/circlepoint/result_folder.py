@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import circlepoint
@@ -12,7 +12,7 @@ from circlepoint.export import write_description
 from circlepoint.recording_io import read_recording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from circlepoint.arm import Arm
@@ -39,6 +39,8 @@ class CalibrationJob:
         m/s^2.
     reference_configuration : sequence of float, optional
         rad or m.
+    treatments : mapping of str to ParameterTreatment
+        As those of `calibrate`.
     joint_topic, imu_topic : str, optional
         Of a bag.
     """
@@ -52,6 +54,7 @@ class CalibrationJob:
     sensor: circlepoint.AccelerometerSpecification | None = None
     gravity: float = circlepoint.STANDARD_GRAVITY
     reference_configuration: Sequence[float] | None = None
+    treatments: Mapping[str, circlepoint.ParameterTreatment] = field(default_factory=dict)
     joint_topic: str | None = None
     imu_topic: str | None = None
 
@@ -97,6 +100,7 @@ def calibrate_into(
         sensor=job.sensor,
         gravity=job.gravity,
         reference_configuration=job.reference_configuration,
+        treatments=job.treatments,
     )
     document = with_description(with_reading(calibration.document, loaded), job.arm_file, job.base, job.tip)
     calibration = replace(calibration, document=document)

@@ -50,6 +50,8 @@ def test_the_command_lists_its_commands_and_what_the_status_means(capsys):
         ["check", "log.csv", "--arm", "arm.yaml", "--gravity", "strong"],
         ["calibrate", "log.csv", "--arm", "a", "--out", "r", "--method", "guess"],
         ["calibrate", "log.csv", "--arm", "a", "--out", "r", "--reference-configuration", "1,x"],
+        ["calibrate", "log.csv", "--arm", "a", "--out", "r", "--parameter", "colour=free"],
+        ["calibrate", "log.csv", "--arm", "a", "--out", "r", "--parameter", "scale=-1"],
         ["simulate", "plan.yaml", "--arm", "a", "--sensor", "ideal", "--out", "log.csv", "--seed", "-1"],
     ],
 )

@@ -27,8 +27,9 @@ void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>
   layout.claim_lines(state.axes, moves);
   layout.up_gravity = layout.claim(3);
   problem.prior.gravity = options.gravity_magnitude;
-  problem.prior.gravity_known = !options.gravity.estimated;
-  problem.prior.gravity_std = options.gravity.estimated ? options.gravity.std : known_gravity_std;
+  const ParameterTreatment gravity = settle(options.gravity, 0.0);
+  problem.prior.gravity_known = !gravity.estimated;
+  problem.prior.gravity_std = gravity.estimated ? gravity.std : known_gravity_std;
   const auto group = [&](Index& column, const ParameterTreatment& treatment, double specified, const Eigen::VectorXd& mean) {
     const ParameterTreatment settled = settle(treatment, specified);
     if (settled.estimated) {

@@ -35,11 +35,24 @@ void validate(const Recording& recording, const WholeArmOptions& options) {
   require(options.cutoff >= 0.0 && options.cutoff < 0.5 * recording.sample_rate,
           "cutoff is " + std::to_string(options.cutoff) + " Hz; give 0 (chosen) or less than half the sample rate of " +
               std::to_string(recording.sample_rate) + " Hz");
-  for (const ParameterTreatment* treatment :
-       {&options.bias, &options.scale, &options.misalignment, &options.percussion_distance, &options.second_order, &options.gravity,
-        &options.clock_offset, &options.clock_rate, &options.gyroscope_bias, &options.gyroscope_matrix, &options.gyroscope_delay}) {
-    require(!treatment->where_evident, "where_evident is for encoder_gain and eccentricity only; set estimated and std of the others");
-  }
+  const auto check = [](const char* name, const ParameterTreatment& treatment, bool encoder = false) {
+    require(encoder || !treatment.where_evident,
+            std::string(name) + ": where_evident is for encoder_gain and eccentricity only; set estimated and std of the others");
+    require(treatment.std >= 0.0, std::string(name) + ": std is " + std::to_string(treatment.std) + "; give a number from 0 to infinity");
+  };
+  check("bias", options.bias);
+  check("scale", options.scale);
+  check("misalignment", options.misalignment);
+  check("percussion_distance", options.percussion_distance);
+  check("second_order", options.second_order);
+  check("gravity", options.gravity);
+  check("clock_offset", options.clock_offset);
+  check("clock_rate", options.clock_rate);
+  check("encoder_gain", options.encoder_gain, true);
+  check("eccentricity", options.eccentricity, true);
+  check("gyroscope_bias", options.gyroscope_bias);
+  check("gyroscope_matrix", options.gyroscope_matrix);
+  check("gyroscope_delay", options.gyroscope_delay);
   require(options.max_passes > 0, "max_passes is " + std::to_string(options.max_passes) + "; give 1 or more");
 }
 

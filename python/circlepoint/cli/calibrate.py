@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from pathlib import Path
@@ -13,12 +14,13 @@ from circlepoint.cli.options import Subparsers, add_command, add_recording, arm_
 from circlepoint.findings import few_gaps
 from circlepoint.result_folder import CalibrationJob, calibrate_into
 from circlepoint.sensor_presets import load_sensor
+from circlepoint.treatments import PARAMETER_GROUPS, read_treatment
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Mapping
     from typing import Any
 
+    from circlepoint._core import ParameterTreatment
     from circlepoint.arm import Arm
 
 METHODS = ("whole-arm", "joint", "position", "velocity")
@@ -37,6 +39,7 @@ _EXAMPLES = """\
   circlepoint calibrate log.bag --arm arm.urdf --tip tool0 --out result           a ROS bag, the arm from its URDF
   circlepoint calibrate log.csv --arm arm.yaml --out result --sensor qa700 --method velocity
   circlepoint calibrate log.csv --arm arm.yaml --out result --reference-configuration -1.2,0,0.5,0,0,0
+  circlepoint calibrate log.csv --arm arm.yaml --out result --parameter encoder_gain=fixed --parameter gravity=0.02
 """
 
 
@@ -68,6 +71,16 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
         metavar="Q1,Q2,...",
         help="joint positions (rad or m) at which the lines are given (default: chosen from the recording)",
     )
+    parser.add_argument(
+        "--parameter",
+        action="append",
+        type=_treatment,
+        default=[],
+        metavar="NAME=HOW",
+        help="how whole-arm treats a group of parameters: fixed at its nominal value, free, or the standard deviation "
+        "of what is known of it; NAME is one of "
+        + ", ".join(f"{name} ({unit})" for name, unit in PARAMETER_GROUPS.items()),
+    )
     parser.add_argument("--json", action="store_true", help="print calibration.json instead of tables")
     parser.set_defaults(run=run)
 
@@ -75,6 +88,7 @@ def register(commands: Subparsers, common: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the command."""
     require_writable_folder(options.out)
+    treatments = _treatments(options)
     arm = arm_of(options)
     _require_reference(options.reference_configuration, arm)
     sensor = None if options.sensor is None else load_sensor(options.sensor)
@@ -88,6 +102,7 @@ def run(options: argparse.Namespace) -> int:
         sensor=sensor,
         gravity=options.gravity,
         reference_configuration=options.reference_configuration,
+        treatments=treatments,
         joint_topic=options.joint_topic,
         imu_topic=options.imu_topic,
     )
@@ -125,6 +140,23 @@ def _print_tables(document: Mapping[str, Any], folder: Path) -> None:
     for message in few_gaps([finding["message"] for finding in document["findings"]]):
         print(f"note: {message}")
     print(f"written: {folder / 'calibration.json'}, {folder / 'report.html'}")
+
+
+def _treatment(text: str) -> tuple[str, ParameterTreatment]:
+    try:
+        return read_treatment(text)
+    except InvalidInput as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def _treatments(options: argparse.Namespace) -> dict[str, ParameterTreatment]:
+    said = [name for name, _ in options.parameter]
+    twice = next((name for name in said if said.count(name) > 1), None)
+    if twice is not None:
+        raise InvalidInput(f"--parameter says {twice} more than once; say it once")
+    if said and options.method != "whole-arm":
+        raise InvalidInput(f"--parameter {said[0]} is for --method whole-arm, not {options.method}; leave it out")
+    return dict(options.parameter)
 
 
 def _require_reference(reference: tuple[float, ...] | None, arm: Arm) -> None:

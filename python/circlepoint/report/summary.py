@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from circlepoint.report.comparison import largest, line_errors
 from circlepoint.report.inputs import Document, is_estimated, number, predicted_end_point_std
 from circlepoint.report.rounding import format_std, significant
+from circlepoint.treatments import PARAMETER_GROUPS
 
 _methods = {
     "whole-arm": "whole-arm estimate: all axes, gravity, the sensor's errors and the delay by maximum likelihood",
@@ -28,9 +29,17 @@ class KeyNumber(NamedTuple):
 
 
 def method_name(document: Document) -> str:
-    """Return the method in words."""
+    """Return the method in words, with what was asked of its parameters."""
     method = str(document.get("method", "unknown"))
-    return _methods.get(method, f"method: {method}")
+    name = _methods.get(method, f"method: {method}")
+    asked = "; ".join(_as_asked(group, how) for group, how in document.get("treatments", {}).items())
+    return f"{name}. As asked: {asked}" if asked else name
+
+
+def _as_asked(group: str, how: str | float) -> str:
+    if isinstance(how, str):
+        return f"{group} {how}"
+    return f"{group} known to {how:g} {PARAMETER_GROUPS[group]}".removesuffix(" 1")
 
 
 def verdict(document: Document) -> str:

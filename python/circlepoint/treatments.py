@@ -1,0 +1,101 @@
+"""How the whole-arm estimate treats a group of its parameters: fixed, free, or free with a prior."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from circlepoint._core import InvalidInput, ParameterTreatment
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from circlepoint._core import WholeArmOptions
+    from circlepoint.document import Document
+
+PARAMETER_GROUPS = {
+    "bias": "m/s^2",
+    "scale": "1",
+    "misalignment": "rad",
+    "percussion_distance": "m",
+    "second_order": "s^2/m",
+    "gravity": "m/s^2",
+    "clock_offset": "s",
+    "clock_rate": "1",
+    "encoder_gain": "1",
+    "eccentricity": "rad",
+    "gyroscope_bias": "rad/s",
+    "gyroscope_matrix": "1",
+    "gyroscope_delay": "s",
+}
+"""Names, as those of `circlepoint.WholeArmOptions`, with the unit of a prior's standard deviation."""
+
+
+def read_treatment(text: str) -> tuple[str, ParameterTreatment]:
+    """Read ``NAME=fixed``, ``NAME=free`` or ``NAME=STD``.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    name : str
+        One of `PARAMETER_GROUPS`.
+    treatment : ParameterTreatment
+        Fixed at its nominal value, free, or with a Gaussian prior of that standard deviation about it.
+
+    Raises
+    ------
+    InvalidInput
+        Naming what was given and what may be.
+    """
+    name, _, how = text.partition("=")
+    if name not in PARAMETER_GROUPS:
+        raise InvalidInput(f"{text!r} names no group of parameters; there are {', '.join(PARAMETER_GROUPS)}")
+    if how == "fixed":
+        return name, ParameterTreatment(estimated=False)
+    if how == "free":
+        return name, ParameterTreatment()
+    try:
+        std = float(how)
+    except ValueError:
+        std = math.nan
+    if not 0.0 < std < math.inf:
+        raise InvalidInput(
+            f"{text!r} says nothing of {name}; give {name}=fixed, {name}=free or {name}=STD, its standard deviation in "
+            f"{PARAMETER_GROUPS[name]}"
+        )
+    return name, ParameterTreatment(std=std)
+
+
+def set_treatments(options: WholeArmOptions, treatments: Mapping[str, ParameterTreatment]) -> None:
+    """Set the options of the groups named.
+
+    Parameters
+    ----------
+    options : WholeArmOptions
+        Changed.
+    treatments : mapping of str to ParameterTreatment
+        By names of `PARAMETER_GROUPS`.
+
+    Raises
+    ------
+    InvalidInput
+        For another name.
+    """
+    for name, treatment in treatments.items():
+        if name not in PARAMETER_GROUPS:
+            raise InvalidInput(f"{name!r} is no group of parameters; there are {', '.join(PARAMETER_GROUPS)}")
+        setattr(options, name, treatment)
+
+
+def treatment_entries(treatments: Mapping[str, ParameterTreatment]) -> Document:
+    """Return what was asked as a document has it: ``"fixed"``, ``"free"``, or the prior's standard deviation."""
+    return {name: _entry(treatment) for name, treatment in treatments.items()}
+
+
+def _entry(treatment: ParameterTreatment) -> str | float:
+    if not treatment.estimated:
+        return "fixed"
+    return treatment.std if math.isfinite(treatment.std) else "free"
