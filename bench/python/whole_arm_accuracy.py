@@ -1,8 +1,6 @@
 """Efficiency and honesty of the whole-arm estimate over many seeds: python bench/python/whole_arm_accuracy.py [SEEDS].
 
-The arm is the demonstration's, built a little off its drawing. One continuous log a seed: of each joint 16 rests over
-150 degrees and eq. (11), 0.5 Hz for 4 s; or 60 s of all joints at once; at the paper's 500 Hz. Sensors are drawn from
-their data sheets. Printed for each case and group of parameters: the share of true values within their 95 %
+Printed for each case of whole_arm_cases.py and each group of parameters: the share of true values within their 95 %
 intervals, the mean normalised square of the error (1 is honest), the end-point's error over 200 poses and what was
 predicted; and, where the noise is white and the encoders exact, the root mean square error against the Cramer-Rao
 bound: the inverse information of all samples at full rate, without any filter, with the true noise and the same
@@ -13,87 +11,16 @@ from __future__ import annotations
 
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
+from whole_arm_cases import CASES, SENSOR_GROUPS, UP, Case, Truth, motion, moved_in_time, poses, simulated, truth
 
 import circlepoint as cp
-from circlepoint.arm import load_arm
-from circlepoint.demo import ARM_FILE, built_arm
 from circlepoint.sensor_presets import load_sensor
 
-START = np.full(7, -1.2)
-UP = cp.STANDARD_GRAVITY * np.array([0.36, 0.48, 0.80])
-SPAN = np.radians(150.0)
-POSES = START + np.random.default_rng(0).uniform(-np.pi, np.pi, (200, 7))
-SENSOR_GROUPS = ("bias", "scale", "misalignment", "percussion_distance", "second_order")
 LIMIT = 1.96  # standard deviations of a 95 % interval
-
-
-@dataclass(frozen=True)
-class Case:
-    """One kind of recording."""
-
-    name: str
-    sensor: str = "qa700"
-    noise: float = 0.01  # m/s^2 per sample
-    vibration: float = 0.0  # m/s^2, tangential
-    counts: float = 400_000.0  # a revolution; 0: exact
-    free: bool = False  # all joints at once
-    compliance: float = 0.0  # rad per m^2/s^2
-
-
-CASES = (
-    Case("tests, white noise, exact encoders", counts=0.0),
-    Case("tests, 400,000 counts, joints yield", compliance=1e-4),
-    Case("tests, vibration", vibration=0.1),
-    Case("tests, 4,096 counts", counts=4096.0),
-    Case("tests, MEMS", sensor="mems", noise=0.02),
-    Case("all joints at once", free=True, counts=0.0),
-    Case("all at once, vibration", free=True, vibration=0.1),
-)
-
-
-def motion(case: Case, seed: int) -> cp.JointTrajectory:
-    """Return eq. (11) and rests of each joint, or all joints at once; within its count every seed starts elsewhere."""
-    start = START + (np.random.default_rng(seed).uniform(0.0, 2e-3, 7) if case.counts else 0.0)
-    if case.free:
-        pieces = [cp.MultiJointMotion(duration=60.0, amplitude=np.full(7, 1.2), seed=7)]
-    else:
-        pieces = []
-        for joint in range(7):
-            pieces.append(cp.SteppedSweep(joint=joint, steps=16, span=SPAN, dwell=0.8, move=0.6))
-            pieces.append(cp.RaisedCosine(joint=joint, span=SPAN, frequency=0.5, duration=4.0))
-    return cp.joint_trajectory(start, pieces, 500.0, 0.6)
-
-
-@dataclass(frozen=True)
-class Truth:
-    """What a recording is made of."""
-
-    chain: cp.ScrewChain
-    up: np.ndarray
-    sensor: cp.AccelerometerModel
-
-
-def truth(case: Case, seed: int) -> Truth:
-    """Return one arm for all seeds, and a sensor for each."""
-    return Truth(built_arm(load_arm(ARM_FILE), START, 1), UP, cp.draw_accelerometer(load_sensor(case.sensor), seed))
-
-
-def simulated(case: Case, made_of: Truth, trajectory: cp.JointTrajectory, seed: int) -> cp.Recording:
-    """Return the recording."""
-    options = cp.SimulationOptions(
-        noise_std=case.noise,
-        encoder_counts_per_revolution=np.full(7, case.counts),
-        compliance=np.full(7, case.compliance),
-        vibration=cp.VibrationOptions(
-            tangential_amplitude=case.vibration, orthogonal_amplitude=0.1 * case.vibration, frequency_max=60.0
-        ),
-        seed=seed,
-    )
-    return cp.simulate(made_of.chain, made_of.up, made_of.sensor, trajectory, options)
 
 
 @dataclass(frozen=True)
@@ -109,13 +36,19 @@ class Trial:
 
 def estimate(case: Case, recording: cp.Recording) -> cp.WholeArmCalibration:
     """Return the whole-arm estimate at the configuration the truth is given at."""
+    chain = case.arm()
+    types = [axis.type for axis in chain.axes]
     options = cp.WholeArmOptions()
     options.sensor = load_sensor(case.sensor)
+    options.joint_types = types
     options.threads = 1
-    options.reference_configuration = START
+    options.reference_configuration = chain.reference_configuration
+    if case.scale > 0.0:
+        options.scale = cp.ParameterTreatment(std=case.scale)
     if case.counts > 0.0:
-        options.encoder_resolution = np.full(7, 2 * np.pi / case.counts)
-    return cp.calibrate_whole_arm(recording, cp.segment(recording), options)
+        options.encoder_resolution = np.full(len(types), 2 * np.pi / case.counts)
+    segmentation = cp.segment(recording, cp.SegmentationOptions(joint_types=types))
+    return cp.calibrate_whole_arm(recording, segmentation, options)
 
 
 def trial(case: Case, seed: int) -> Trial:
@@ -128,19 +61,19 @@ def trial(case: Case, seed: int) -> Trial:
         suffixes = ("yx", "zx", "zy") if name == "misalignment" else "xyz"
         for suffix, value in zip(suffixes, getattr(made_of.sensor, name), strict=True):
             true_values[f"{name}_{suffix}"] = value
-    true_values["clock_offset"] = 0.0
+    true_values["clock_offset"] = case.late
     local = {
         f"joint{joint + 1}.{name}": error
         for joint, (mine, theirs) in enumerate(zip(chain.axes, made_of.chain.axes, strict=True))
         for name, error in zip(("d1", "d2", "p1", "p2"), cp.local_coordinates(mine.line, theirs.line), strict=True)
     }
     errors = [local[p.name] if p.name in local else p.value - true_values[p.name] for p in result.parameters]
-    predicted = cp.end_point_std(chain, result.joints.covariance, POSES)
+    predicted = cp.end_point_std(result, poses(made_of.chain))
     return Trial(
         [p.name for p in result.parameters],
         np.array(errors),
         np.array([p.std for p in result.parameters]),
-        cp.end_point_error(chain, made_of.chain, POSES),
+        cp.end_point_error(chain, made_of.chain, poses(made_of.chain)),
         float(np.sqrt(np.mean(predicted**2))),
     )
 
@@ -174,7 +107,7 @@ def nudged(made_of: Truth, name: str, step: float) -> Truth:
 def cramer_rao(case: Case, trajectory: cp.JointTrajectory, names: list[str], seed: int = 0) -> np.ndarray:
     """Return the bound's covariance: all samples, white noise of known size, exact encoders, the same priors."""
     made_of = truth(case, seed)
-    clean = Case(case.name, case.sensor, 0.0, 0.0, 0.0, case.free)
+    clean = replace(case, noise=0.0)
 
     def readings(of: Truth, shifted: cp.JointTrajectory = trajectory) -> np.ndarray:
         return np.asarray(simulated(clean, of, shifted, 0).specific_force).ravel()
@@ -183,20 +116,7 @@ def cramer_rao(case: Case, trajectory: cp.JointTrajectory, names: list[str], see
     jacobian = np.empty((readings(made_of).size, len(names)))
     for column, name in enumerate(names):
         if name == "clock_offset":
-            acceleration = np.asarray(trajectory.acceleration)
-            jerk = np.gradient(acceleration, 1.0 / trajectory.sample_rate, axis=0)
-            sides = []
-            for sign in (1.0, -1.0):
-                late = -sign * step
-                sides.append(
-                    cp.JointTrajectory(
-                        trajectory.time,
-                        trajectory.position + late * trajectory.velocity,
-                        trajectory.velocity + late * trajectory.acceleration,
-                        acceleration + late * jerk,
-                        trajectory.sample_rate,
-                    )
-                )
+            sides = [moved_in_time(trajectory, -sign * step) for sign in (1.0, -1.0)]
             jacobian[:, column] = (readings(made_of, sides[0]) - readings(made_of, sides[1])) / (2 * step)
             continue
         above, below = (readings(nudged(made_of, name, sign * step)) for sign in (1.0, -1.0))
@@ -232,11 +152,12 @@ def run(case: Case, seeds: int) -> None:
     predicted = 1e3 * np.sqrt(np.mean([t.predicted**2 for t in trials]))
     title = f"{case.name}: {seeds} seeds; end-point {end_point:.4f} mm rms, predicted {predicted:.4f}"
     bound = None
-    if case.vibration == 0.0 and case.counts == 0.0:
+    if case.bounded:
+        made_of = truth(case, 0).chain
         covariance = cramer_rao(case, motion(case, 0), names)
         bound = np.sqrt(np.diag(covariance))
         lines = [column for column, name in enumerate(names) if name.startswith("joint")]
-        least = cp.end_point_std(truth(case, 0).chain, covariance[np.ix_(lines, lines)], POSES)
+        least = cp.end_point_std(made_of, covariance[np.ix_(lines, lines)], poses(made_of))
         title += f", {end_point / (1e3 * np.sqrt(np.mean(least**2))):.3f} of the bound"
     print(title)
     print(

@@ -1,6 +1,7 @@
 """What the whole-arm estimate makes of recordings nobody here made: python bench/python/whole_arm_recordings.py FOLDER.
 
-FOLDER holds one folder a recording: log.csv, or joints.csv and sensor.csv, arm.yaml and, where it is known, truth.json.
+FOLDER holds one folder a recording: log.csv, or joints.csv and sensor.csv, arm.yaml and, where it is known, truth.json;
+of those in UNDESCRIBED nothing is known but the number of joints.
 Against a truth: the largest error of an axis and of a line, the end-point's over 200 poses and what was predicted. Else
 the lengths that are not zero nominally, beside the nominal ones, which are not used; and what is not given, and why. At
 the end the time the estimate takes for a simulated arm of seven joints, by samples.
@@ -16,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import circlepoint as cp
-from circlepoint.arm import Arm, load_arm
+from circlepoint.arm import Arm, Joint, load_arm
 from circlepoint.calibration import Calibration, calibrate
 from circlepoint.demo import ARM_FILE, built_arm
 from circlepoint.recording_io import read_recording
@@ -25,6 +26,11 @@ from circlepoint.truth import truth_chain
 
 SENSORS = {"qa700": "qa700", "mems": "mems", "ideal": "ideal", "coarse": "qa700"}  # by the last word of a folder's name
 LOGS = (("log.csv",), ("joints.csv", "sensor.csv"))
+UNDESCRIBED = {  # file and joints
+    "real-franka-static": ("static.csv", 7),
+    "real-hebi-5module": ("log.csv.gz", 4),
+    "real-ur3e-rtde": ("recording.csv", 6),
+}
 
 
 def against_truth(result: Calibration, folder: Path) -> None:
@@ -37,7 +43,7 @@ def against_truth(result: Calibration, folder: Path) -> None:
         [cp.local_coordinates(mine.line, theirs.line) for mine, theirs in zip(chain.axes, truth.axes, strict=True)]
     )
     poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (200, len(errors))) + chain.reference_configuration
-    predicted = cp.end_point_std(chain, result.joints.covariance, poses)
+    predicted = cp.end_point_std(result.whole_arm, poses)
     covariance = np.asarray(result.joints.covariance)  # zero where a sliding joint has no point
     estimated = np.count_nonzero(np.diag(covariance))
     squares = errors.ravel() @ np.linalg.pinv(covariance, hermitian=True) @ errors.ravel() / estimated
@@ -61,22 +67,37 @@ def against_nominal(result: Calibration, arm: Arm) -> None:
     for entry in result.document.get("encoders", []):
         errors = [f"{name} {e['estimate']:.5f} ± {e['std']:.5f}" for name, e in entry.items() if isinstance(e, dict)]
         print(f"  encoder of {entry['joint']}: {', '.join(errors)}")
+    reasons: dict[str, list[str]] = {}
     for joint in result.document["joints"]:
-        if joint.get("reason"):
-            print(f"  {joint['name']}: {joint['reason']}")
+        if joint["reason"]:
+            reasons.setdefault(joint["reason"], []).append(joint["name"])
+    for reason, joints in reasons.items():
+        print(f"  {', '.join(joints)}: {reason}")
+
+
+def described(folder: Path) -> tuple[Arm, list[Path]] | None:
+    """Return a recording's arm and files; None where a folder holds none."""
+    if folder.name in UNDESCRIBED:
+        file, count = UNDESCRIBED[folder.name]
+        joints = tuple(Joint(f"joint{number}", "revolute") for number in range(1, count + 1))
+        return Arm(folder.name, joints), [folder / file]
+    names = next((names for names in LOGS if all((folder / name).is_file() for name in names)), None)
+    if names is None or not (folder / "arm.yaml").is_file():
+        return None
+    return load_arm(folder / "arm.yaml"), [folder / name for name in names]
 
 
 def recording(folder: Path) -> None:
     """Print one recording's result."""
-    names = next((names for names in LOGS if all((folder / name).is_file() for name in names)), None)
-    if names is None:
-        print(f"{folder.name}: no {' nor '.join(' + '.join(log) for log in LOGS)}")
+    found = described(folder)
+    if found is None:
+        print(f"{folder.name}: no arm.yaml with {' or '.join(' + '.join(log) for log in LOGS)}")
         return
-    arm = load_arm(folder / "arm.yaml")
+    arm, files = found
     preset = SENSORS.get(folder.name.rsplit("-", 1)[-1])
     print(f"{folder.name}: sensor {preset or 'not specified'}")
     try:
-        log = read_recording([folder / name for name in names], arm)
+        log = read_recording(files, arm)
         result = calibrate(log.recording, arm, sensor=None if preset is None else load_sensor(preset))
         if (folder / "truth.json").is_file() and result.chain is not None:
             against_truth(result, folder)
@@ -117,7 +138,7 @@ def growth() -> None:
 def main() -> int:
     """Print all recordings of a folder, then the growth."""
     if len(sys.argv) > 1:
-        for folder in sorted(path.parent for path in Path(sys.argv[1]).glob("*/arm.yaml")):
+        for folder in sorted(path for path in Path(sys.argv[1]).iterdir() if path.is_dir()):
             recording(folder)
     else:
         print("give a folder of recordings to see what the estimate makes of them")

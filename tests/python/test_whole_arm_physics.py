@@ -87,14 +87,15 @@ def test_coarse_encoders_on_joints_that_give_way_leave_half_a_millimetre(seed, e
     options = cp.WholeArmOptions()
     options.sensor = load_sensor("qa700")
     options.encoder_resolution = np.where(np.arange(7) == exact, 0.0, COUNT)
-    result = cp.calibrate_whole_arm(recording, cp.segment(recording), options).joints
+    calibration = cp.calibrate_whole_arm(recording, cp.segment(recording), options)
+    result = calibration.joints
     estimate = result.chain()
     truth = cp.rebase(chain, result.reference_configuration)
     errors = np.concatenate(
         [cp.local_coordinates(a.line, b.line) for a, b in zip(estimate.axes, truth.axes, strict=True)]
     )
     poses = START + np.random.default_rng(0).uniform(-np.pi, np.pi, (200, 7))
-    predicted = np.sqrt(np.mean(np.square(cp.end_point_std(estimate, result.covariance, poses))))
+    predicted = np.sqrt(np.mean(np.square(cp.end_point_std(calibration, poses))))
     assert cp.end_point_error(estimate, truth, poses) < 6e-4
     assert predicted < 6e-4
     assert errors @ np.linalg.solve(result.covariance, errors) < 2.0 * len(errors)

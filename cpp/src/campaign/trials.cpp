@@ -12,11 +12,9 @@
 namespace circlepoint {
 namespace {
 
-// What the two kinds of estimate have in common.
+// By any method; one that goes joint by joint gives the lines of `found` alone.
 struct Estimate {
-  JointCalibration joints;
-  bool converged = false;
-  int iterations = 0;
+  WholeArmCalibration found;
   bool estimates_sensor = true;
 };
 
@@ -27,20 +25,18 @@ Segmentation segment_for(const Recording& recording, const std::vector<JointType
 }
 
 Estimate estimate(const Recording& recording, const JointCalibrationOptions& options) {
-  Estimate result;
-  result.joints = calibrate_joints(recording, segment_for(recording, options.joint_types), options);
-  result.converged = result.joints.converged && std::ranges::all_of(result.joints.fits, &TestFit::converged);
-  result.iterations = result.joints.passes;
-  result.estimates_sensor = options.method == CalibrationMethod::joint;
+  Estimate result{{}, options.method == CalibrationMethod::joint};
+  JointCalibration& joints = result.found.joints;
+  joints = calibrate_joints(recording, segment_for(recording, options.joint_types), options);
+  result.found.converged = joints.converged && std::ranges::all_of(joints.fits, &TestFit::converged);
+  result.found.iterations = joints.passes;
   return result;
 }
 
 Estimate estimate(const Recording& recording, const WholeArmOptions& options) {
   WholeArmOptions alone = options;
   alone.threads = 1;
-  WholeArmCalibration calibration =
-      calibrate_whole_arm(recording, segment_for(recording, options.joint_types), alone);
-  return {std::move(calibration.joints), calibration.converged, calibration.iterations, true};
+  return {calibrate_whole_arm(recording, segment_for(recording, options.joint_types), alone)};
 }
 
 TrialResult nothing(Index joints) {
@@ -49,22 +45,22 @@ TrialResult nothing(Index joints) {
   return result;
 }
 
-void compare(const Estimate& found, const SimulatedExperiment& truth, const SamplesX& configurations,
+void compare(const Estimate& estimate, const SimulatedExperiment& truth, const SamplesX& configurations,
              TrialResult& result) {
-  result.converged = found.converged;
-  result.iterations = found.iterations;
-  result.lines = compare_lines(found.joints, truth.chain);
-  if (found.estimates_sensor) {
-    result.sensor = compare_sensor(found.joints, truth.sensor);
+  const JointCalibration& joints = estimate.found.joints;
+  result.converged = estimate.found.converged;
+  result.iterations = estimate.found.iterations;
+  result.lines = compare_lines(joints, truth.chain);
+  if (estimate.estimates_sensor) {
+    result.sensor = compare_sensor(joints, truth.sensor);
   }
-  result.outcome = found.joints.complete() ? TrialOutcome::complete : TrialOutcome::incomplete;
+  result.outcome = joints.complete() ? TrialOutcome::complete : TrialOutcome::incomplete;
   if (result.outcome == TrialOutcome::incomplete) {
-    const auto missing = std::ranges::find_if(found.joints.joints, [](const auto& joint) { return !joint.axis; });
+    const auto missing = std::ranges::find_if(joints.joints, [](const auto& joint) { return !joint.axis; });
     result.reason = "joint " + std::to_string(missing->joint + 1) + ": " + missing->reason;
   } else if (configurations.rows() > 0) {
-    const ScrewChain chain = found.joints.chain();
-    result.end_point_error = end_point_error(chain, truth.chain, configurations);
-    const Eigen::VectorXd std = end_point_std(chain, found.joints.covariance, configurations);
+    result.end_point_error = end_point_error(joints.chain(), truth.chain, configurations);
+    const Eigen::VectorXd std = end_point_std(estimate.found, configurations);
     result.end_point_std = std::sqrt(std.squaredNorm() / static_cast<double>(std.size()));
   }
 }
