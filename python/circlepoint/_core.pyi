@@ -2099,6 +2099,11 @@ class JointEstimate:
     @property
     def reason(self) -> str:
         ...
+    @property
+    def vague(self) -> JointAxis | None:
+        """
+        JointAxis too vague to be given, its direction known to 0.1 rad at least (whole-arm), or None
+        """
 class JointCalibration:
     """
     Every joint's axis at one reference configuration.

@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from circlepoint._core import __version__
+from circlepoint._core import JointType, __version__
 from circlepoint.atomic import write_atomically
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     import circlepoint
+    from circlepoint._core import JointAxis
     from circlepoint.findings import Finding
     from circlepoint.recording_io import LoadedRecording
 
@@ -121,12 +122,27 @@ def joint_entry(
     }
 
 
-def missing_joint_entry(name: str, joint_type: str, reason: str, tests: Sequence[Mapping[str, Any]] = ()) -> Document:
-    """Return an entry of ``joints`` whose axis could not be estimated, with the reason."""
+def missing_joint_entry(
+    name: str,
+    joint_type: str,
+    reason: str,
+    tests: Sequence[Mapping[str, Any]] = (),
+    vague: JointAxis | None = None,
+) -> Document:
+    """Return an entry of ``joints`` whose axis could not be estimated, with the reason and what is known of it."""
     line = dict.fromkeys(
         ("direction_sensor", "direction_std", "point_sensor", "point_std", "covariance", "covariance_basis")
     )
-    return {"name": name, "type": joint_type, **line, "reason": reason, "tests": plain(list(tests))}
+    entry: Document = {"name": name, "type": joint_type, **line, "reason": reason, "tests": plain(list(tests))}
+    if vague is not None:
+        slides = vague.screw.type == JointType.prismatic
+        entry["vague"] = {
+            "direction_sensor": plain(vague.screw.line.direction),
+            "direction_std": vague.direction_std(),
+            "point_sensor": None if slides else plain(vague.screw.line.point),
+            "point_std": None if slides else vague.point_std(),
+        }
+    return entry
 
 
 def with_description(document: Mapping[str, Any], path: Path, base: str | None, tip: str | None) -> Document:

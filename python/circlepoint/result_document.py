@@ -98,7 +98,9 @@ def _joint_entries(
         ]
         if estimate.axis is None:
             entries.append(
-                missing_joint_entry(joint.name, joint.type, said_of(arm, estimate.reason, estimate.joint), tests)
+                missing_joint_entry(
+                    joint.name, joint.type, said_of(arm, estimate.reason, estimate.joint), tests, estimate.vague
+                )
             )
             continue
         line = estimate.axis.screw.line

@@ -8,7 +8,8 @@ import circlepoint
 from circlepoint.arm import Arm, DhRow, Joint, NominalDh
 from circlepoint.calibration import calibrate, whole_arm_options
 from circlepoint.document import load_schema
-from circlepoint.report.tables import sensor_table
+from circlepoint.report import format_joint_table
+from circlepoint.report.tables import joint_table, sensor_table
 from circlepoint.sensor_presets import load_sensor
 
 UP = circlepoint.STANDARD_GRAVITY * np.array([0.48, -0.6, 0.64])
@@ -256,3 +257,38 @@ def test_nearly_parallel_axes_get_hayati_rows_whose_lengths_stay_short():
         rtol=0,
         atol=1e-9,
     )
+
+
+def test_of_lines_too_vague_to_be_given_the_directions_are_told():
+    pieces = []
+    for joint in range(4):
+        pieces.append(
+            circlepoint.SteppedSweep(joint=joint, steps=8, span=2.0, dwell=1.0, move=4.0, return_duration=8.0)
+        )
+        pieces.append(circlepoint.RaisedCosine(joint=joint, span=2.0, frequency=0.05, duration=20.0))
+    slow = circlepoint.joint_trajectory(START, pieces, 100.0, 0.6)
+    noisy = circlepoint.SimulationOptions(noise_std=0.3, seed=1)
+    recording = circlepoint.simulate(four_joints(), UP, circlepoint.AccelerometerModel(), slow, noisy)
+    calibration = calibrate(recording, an_arm(), sensor=load_sensor("qa700"))
+    jsonschema.Draft202012Validator(load_schema()).validate(calibration.document)
+    truth = circlepoint.rebase(four_joints(), calibration.joints.reference_configuration)
+    for joint, estimate, true in zip(
+        calibration.document["joints"], calibration.joints.joints, truth.axes, strict=True
+    ):
+        assert joint["direction_sensor"] is None
+        assert "mm only; move it alone, farther and faster" in joint["reason"]
+        vague = joint["vague"]
+        assert vague["direction_std"] < 3e-3
+        assert vague["point_std"] > 2e-2
+        np.testing.assert_array_equal(vague["direction_sensor"], estimate.vague.screw.line.direction)
+        error = circlepoint.local_coordinates(estimate.vague.screw.line, true.line)
+        assert np.all(np.abs(error) < 4.5 * np.sqrt(np.diag(estimate.vague.covariance)))
+    assert "wrist, as far as it is seen: direction (" in format_joint_table(calibration.document)
+    assert "wrist, as far as it is seen: direction (" in joint_table(calibration.document, None)
+
+
+def test_of_joints_that_are_seen_well_or_not_at_all_nothing_vague_is_told(recording):
+    assert all(joint.vague is None for joint in calibrate(recording, an_arm()).joints.joints)
+    missing = calibrate(recorded(3, joints=range(3)), an_arm()).document["joints"][3]
+    assert missing["reason"]
+    assert "vague" not in missing

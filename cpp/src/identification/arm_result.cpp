@@ -10,6 +10,7 @@ namespace {
 
 constexpr double vague_direction = 0.02;  // rad, and
 constexpr double vague_point = 0.02;      // m: a line less certain than this is not given
+constexpr double unknown_direction = 0.1; // rad: a linearised covariance that reaches farther means nothing
 
 // Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
 // rests on the prior alone, or where it spans more than the linearisation.
@@ -44,6 +45,7 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
     const Index column = layout.lines[at];
     JointEstimate& mine = estimate.joints[at];
     mine.axis.reset();
+    mine.vague.reset();
     if (column < 0) {
       if (mine.reason.empty()) {
         mine.reason = "it hardly moves in this recording; move it, alone or with others";
@@ -61,6 +63,9 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
     mine.axis = JointAxis{state.axes[at], estimate.covariance.block<4, 4>(4 * i, 4 * i)};
     mine.reason = why_vague(*mine.axis, gravity_seen);
     if (!mine.reason.empty()) {
+      if (gravity_seen && mine.axis->direction_std() < unknown_direction) {
+        mine.vague = mine.axis;
+      }
       mine.axis.reset();
     }
   }

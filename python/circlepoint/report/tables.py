@@ -18,7 +18,7 @@ from circlepoint.report.rounding import (
     format_value,
     significant,
 )
-from circlepoint.report.text import dh_cell, dh_columns, dh_title, line_components, milli
+from circlepoint.report.text import dh_cell, dh_columns, dh_title, known_of_missing, line_components, milli
 
 _sensor_rows = [  # key, label, names of the components, unit, factor from SI
     ("bias", "bias", "xyz", "mm/s²", 1e3),
@@ -65,6 +65,7 @@ def joint_table(document: Document, truth: Mapping[str, Any] | None) -> str:
         for joint in joints
         if not is_estimated(joint)
     ]
+    missing += [f"<li>{escaped(sentence)}</li>" for sentence in known_of_missing(document)]
     caption = "Joint axes in the sensor frame at the reference configuration"
     return table(columns, caption) + (f'<ul class="missing">{"".join(missing)}</ul>' if missing else "")
 

@@ -61,7 +61,24 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
         if not is_estimated(joint):
             reasons.setdefault(joint.get("reason") or "No reason was given.", []).append(joint["name"])
     lines += [f"{', '.join(names)}: not estimated. {reason}" for reason, names in reasons.items()]
+    lines += known_of_missing(document)
     return "\n".join(lines) + "\n"
+
+
+def known_of_missing(document: Document) -> list[str]:
+    """Return a sentence for each joint whose axis is too vague to be given but not unknown."""
+    sentences = []
+    for joint in document["joints"]:
+        vague = joint.get("vague")
+        if vague is None:
+            continue
+        direction = ", ".join(f"{component:.4f}" for component in vague["direction_sensor"])
+        known = f"direction ({direction}) {PLUS_MINUS} {significant(1e3 * vague['direction_std'])} mrad"
+        if vague["point_sensor"] is not None:
+            point = ", ".join(f"{1e3 * component:.0f}" for component in vague["point_sensor"])
+            known += f", nearest point ({point}) {PLUS_MINUS} {significant(1e3 * vague['point_std'])} mm"
+        sentences.append(f"{joint['name']}, as far as it is seen: {known}")
+    return sentences
 
 
 def format_dh_table(document: Document) -> str:

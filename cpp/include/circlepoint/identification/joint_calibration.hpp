@@ -88,6 +88,7 @@ struct JointEstimate {
   Index joint = 0;
   std::optional<JointAxis> axis;  ///< in the sensor frame at the reference configuration
   std::string reason;             ///< why there is none, and what to record
+  std::optional<JointAxis> vague; ///< whole-arm: what is known of an axis too vague to be given, its direction to 0.1 rad at least
   Index fit = -1;                 ///< into JointCalibration::fits
 };
 
