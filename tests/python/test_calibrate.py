@@ -284,7 +284,7 @@ def test_of_lines_too_vague_to_be_given_the_directions_are_told():
         error = circlepoint.local_coordinates(estimate.vague.screw.line, true.line)
         assert np.all(np.abs(error) < 4.5 * np.sqrt(np.diag(estimate.vague.covariance)))
     assert "wrist, as far as it is seen: direction (" in format_joint_table(calibration.document)
-    assert "wrist, as far as it is seen: direction (" in joint_table(calibration.document, None)
+    assert "6 s; as far as it is seen: direction (" in joint_table(calibration.document, None)
 
 
 def test_of_joints_that_are_seen_well_or_not_at_all_nothing_vague_is_told(recording):

@@ -18,7 +18,7 @@ from circlepoint.report.rounding import (
     format_value,
     significant,
 )
-from circlepoint.report.text import dh_cell, dh_columns, dh_title, known_of_missing, line_components, milli
+from circlepoint.report.text import as_far_as_seen, dh_cell, dh_columns, dh_title, line_components, milli
 
 _sensor_rows = [  # key, label, names of the components, unit, factor from SI
     ("bias", "bias", "xyz", "mm/s²", 1e3),
@@ -59,15 +59,15 @@ def joint_table(document: Document, truth: Mapping[str, Any] | None) -> str:
     if nominal is not None:
         columns.append(Column("mrad", numbers([milli(e.direction) for e in nominal]), group="off nominal"))
         columns.append(Column("mm", numbers([milli(e.point) for e in nominal]), group="off nominal"))
-    missing = [
-        f"<li><strong>{escaped(joint['name'])}</strong> is not estimated. "
-        f"{escaped(joint.get('reason') or 'No reason was given.')}</li>"
-        for joint in joints
-        if not is_estimated(joint)
-    ]
-    missing += [f"<li>{escaped(sentence)}</li>" for sentence in known_of_missing(document)]
+    missing = [_not_estimated(joint) for joint in joints if not is_estimated(joint)]
     caption = "Joint axes in the sensor frame at the reference configuration"
     return table(columns, caption) + (f'<ul class="missing">{"".join(missing)}</ul>' if missing else "")
+
+
+def _not_estimated(joint: Document) -> str:
+    said = [joint.get("reason") or "No reason was given.", as_far_as_seen(joint)]
+    text = "; ".join(part.removesuffix(".") for part in said if part)
+    return f"<li><strong>{escaped(joint['name'])}</strong> is not estimated: {escaped(text)}.</li>"
 
 
 def dh_table(document: Document) -> str:

@@ -61,24 +61,22 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
         if not is_estimated(joint):
             reasons.setdefault(joint.get("reason") or "No reason was given.", []).append(joint["name"])
     lines += [f"{', '.join(names)}: not estimated. {reason}" for reason, names in reasons.items()]
-    lines += known_of_missing(document)
+    lines += [f"{joint['name']}, {seen}" for joint in joints if (seen := as_far_as_seen(joint))]
     return "\n".join(lines) + "\n"
 
 
-def known_of_missing(document: Document) -> list[str]:
-    """Return a sentence for each joint whose axis is too vague to be given but not unknown."""
-    sentences = []
-    for joint in document["joints"]:
-        vague = joint.get("vague")
-        if vague is None:
-            continue
-        direction = ", ".join(f"{component:.4f}" for component in vague["direction_sensor"])
-        known = f"direction ({direction}) {PLUS_MINUS} {significant(1e3 * vague['direction_std'])} mrad"
-        if vague["point_sensor"] is not None:
-            point = ", ".join(f"{1e3 * component:.0f}" for component in vague["point_sensor"])
-            known += f", nearest point ({point}) {PLUS_MINUS} {significant(1e3 * vague['point_std'])} mm"
-        sentences.append(f"{joint['name']}, as far as it is seen: {known}")
-    return sentences
+def as_far_as_seen(joint: Document) -> str:
+    """Return what is known of a joint's axis that is too vague to be given; empty where nothing is."""
+    vague = joint.get("vague")
+    if vague is None:
+        return ""
+    direction = ", ".join(f"{component:.4f}" for component in vague["direction_sensor"])
+    std = significant(1e3 * vague["direction_std"])
+    seen = f"as far as it is seen: direction ({direction}) {PLUS_MINUS} {std} mrad"
+    if vague["point_sensor"] is not None:
+        point = ", ".join(f"{1e3 * component:.0f}" for component in vague["point_sensor"])
+        seen += f", nearest point ({point}) {PLUS_MINUS} {significant(1e3 * vague['point_std'])} mm"
+    return seen
 
 
 def format_dh_table(document: Document) -> str:
