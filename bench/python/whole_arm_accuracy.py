@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from whole_arm_cases import CASES, SENSOR_GROUPS, UP, Case, Truth, motion, moved_in_time, poses, simulated, truth
+from whole_arm_cases import CASES, SENSOR_GROUPS, UP, Case, Truth, motion, poses, simulated, truth
 
 import circlepoint as cp
 from circlepoint.sensor_presets import load_sensor
@@ -104,6 +104,18 @@ def nudged(made_of: Truth, name: str, step: float) -> Truth:
     return Truth(made_of.chain, made_of.up, cp.AccelerometerModel(**fields))
 
 
+def earlier(trajectory: cp.JointTrajectory, by: float) -> cp.JointTrajectory:
+    """Return the motion as it was a moment before."""
+    jerk = np.gradient(np.asarray(trajectory.acceleration), 1.0 / trajectory.sample_rate, axis=0)
+    return cp.JointTrajectory(
+        trajectory.time,
+        trajectory.position - by * trajectory.velocity,
+        trajectory.velocity - by * trajectory.acceleration,
+        trajectory.acceleration - by * jerk,
+        trajectory.sample_rate,
+    )
+
+
 def cramer_rao(case: Case, trajectory: cp.JointTrajectory, names: list[str], seed: int = 0) -> np.ndarray:
     """Return the bound's covariance: all samples, white noise of known size, exact encoders, the same priors."""
     made_of = truth(case, seed)
@@ -116,7 +128,7 @@ def cramer_rao(case: Case, trajectory: cp.JointTrajectory, names: list[str], see
     jacobian = np.empty((readings(made_of).size, len(names)))
     for column, name in enumerate(names):
         if name == "clock_offset":
-            sides = [moved_in_time(trajectory, -sign * step) for sign in (1.0, -1.0)]
+            sides = [earlier(trajectory, sign * step) for sign in (1.0, -1.0)]
             jacobian[:, column] = (readings(made_of, sides[0]) - readings(made_of, sides[1])) / (2 * step)
             continue
         above, below = (readings(nudged(made_of, name, sign * step)) for sign in (1.0, -1.0))

@@ -74,7 +74,7 @@ class Case:
     compliance: float = 0.0  # rad per m^2/s^2
     arm: Callable[[], cp.ScrewChain] = demonstration_arm
     upright: bool = False  # the base joint exactly along gravity
-    late: float = 0.0  # s, sensor behind the encoders
+    late: float = 0.0  # s, sensor behind the encoders: whole samples
     scale: float = 0.0  # standard deviation of the sensor's scale errors, where the data sheet's do not hold
     bounded: bool = False  # compared with the Cramer-Rao bound: white noise, exact encoders
 
@@ -140,18 +140,6 @@ def motion(case: Case, seed: int) -> cp.JointTrajectory:
     return cp.joint_trajectory(start, pieces, 500.0, 0.6)
 
 
-def moved_in_time(trajectory: cp.JointTrajectory, ahead: float) -> cp.JointTrajectory:
-    """Return the motion a few milliseconds further on."""
-    jerk = np.gradient(np.asarray(trajectory.acceleration), 1.0 / trajectory.sample_rate, axis=0)
-    return cp.JointTrajectory(
-        trajectory.time,
-        trajectory.position + ahead * (trajectory.velocity + ahead / 2.0 * trajectory.acceleration),
-        trajectory.velocity + ahead * trajectory.acceleration,
-        trajectory.acceleration + ahead * jerk,
-        trajectory.sample_rate,
-    )
-
-
 def simulated(case: Case, made_of: Truth, trajectory: cp.JointTrajectory, seed: int) -> cp.Recording:
     """Return the recording."""
     joints = made_of.chain.size()
@@ -167,5 +155,5 @@ def simulated(case: Case, made_of: Truth, trajectory: cp.JointTrajectory, seed: 
     recording = cp.simulate(made_of.chain, made_of.up, made_of.sensor, trajectory, options)
     if case.late == 0.0:
         return recording
-    ahead = np.ascontiguousarray(moved_in_time(trajectory, case.late).position)
-    return cp.make_recording(recording.time, ahead, recording.specific_force)
+    late = round(case.late * trajectory.sample_rate)
+    return cp.make_recording(recording.time[:-late], recording.joint_positions[late:], recording.specific_force[:-late])
