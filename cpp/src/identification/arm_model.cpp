@@ -54,10 +54,12 @@ void ArmPredictor::delay(const JointInstant& instant, double further) {
   stamped_ = instant;
   const double delay = state_.clock_offset + (state_.clock_rate - 1.0) * instant.time_from_middle + further;
   if (delay != 0.0) {
-    stamped_.position += -delay * instant.velocity + 0.5 * delay * delay * instant.acceleration -
-                         delay * delay * delay / 6.0 * instant.jerk;
-    stamped_.velocity += -delay * instant.acceleration + 0.5 * delay * delay * instant.jerk;
-    stamped_.acceleration -= delay * instant.jerk;
+    // To the fourth order: an acceleration without the snap would be too large by (delay x frequency)^2 / 2.
+    const double d = -delay;
+    stamped_.position += d * (instant.velocity + d / 2.0 * (instant.acceleration + d / 3.0 * (instant.jerk + d / 4.0 * instant.snap)));
+    stamped_.velocity += d * (instant.acceleration + d / 2.0 * (instant.jerk + d / 3.0 * instant.snap));
+    stamped_.acceleration += d * (instant.jerk + d / 2.0 * instant.snap);
+    stamped_.jerk += d * instant.snap;
   }
 }
 

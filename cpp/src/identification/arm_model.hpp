@@ -22,6 +22,7 @@ struct JointInstant {
   Eigen::VectorXd velocity;       // (n)
   Eigen::VectorXd acceleration;   // (n)
   Eigen::VectorXd jerk;           // (n)
+  Eigen::VectorXd snap;           // (n)
 };
 
 // d reading / d q, d q' and d q'' of the joints, encoders' errors undone: (3, n) each.

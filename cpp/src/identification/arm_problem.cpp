@@ -14,6 +14,7 @@ void set_instant(const MovingStretch& stretch, Index row, const ArmProblem& prob
   instant.velocity = stretch.velocity.row(row);
   instant.acceleration = stretch.acceleration.row(row);
   instant.jerk = stretch.jerk.row(row);
+  instant.snap = stretch.snap.row(row);
   for (std::size_t k = 0; k < stretch.offsets.size(); ++k) {
     const OffsetTerm& term = stretch.offsets[k];
     const auto column = static_cast<Index>(k);
@@ -34,7 +35,7 @@ void set_instant(const DwellRow& dwell, double middle, const ArmProblem& problem
   }
   instant.velocity = Eigen::VectorXd::Zero(dwell.position.size());
   instant.acceleration = instant.velocity;
-  instant.jerk = instant.velocity;
+  instant.jerk = instant.snap = instant.velocity;
 }
 
 // d reading / d parameter of every offset term at a stretch's row, of either sensor.

@@ -91,13 +91,14 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     stretch.follows.assign(static_cast<std::size_t>(recording.joints()), false);
     stretch.sample = index + static_cast<int>(span.samples.begin);
     stretch.position.resize(last - first, recording.joints());
-    stretch.velocity = stretch.acceleration = stretch.jerk = stretch.position;
+    stretch.velocity = stretch.acceleration = stretch.jerk = stretch.snap = stretch.position;
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const SmoothJoints& joints = span.joints[smoothing[static_cast<std::size_t>(joint)]];
       stretch.position.col(joint) = joints.position(index, joint);
       stretch.velocity.col(joint) = joints.derivative(1, joint, index);
       stretch.acceleration.col(joint) = joints.derivative(2, joint, index);
       stretch.jerk.col(joint) = joints.derivative(3, joint, index);
+      stretch.snap.col(joint) = joints.derivative(4, joint, index);
     }
     for (Index joint = 0; joint < recording.joints(); ++joint) {
       const auto at = static_cast<std::size_t>(joint);
@@ -212,6 +213,7 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
   piece.velocity = stretch.velocity(rows, Eigen::all);
   piece.acceleration = stretch.acceleration(rows, Eigen::all);
   piece.jerk = stretch.jerk(rows, Eigen::all);
+  piece.snap = stretch.snap(rows, Eigen::all);
   piece.reading = stretch.reading(rows, Eigen::all);
   if (!stretch.offsets.empty()) {
     piece.shapes.position = stretch.shapes.position(rows, Eigen::all);

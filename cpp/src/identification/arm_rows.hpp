@@ -40,6 +40,7 @@ struct MovingStretch {
   SamplesX velocity;       // (M, n)
   SamplesX acceleration;   // (M, n)
   SamplesX jerk;           // (M, n)
+  SamplesX snap;           // (M, n), for delays of milliseconds
   SamplesX reading;        // (M, 3), or (M, 6) with angular rate
   std::vector<OffsetTerm> offsets;  // of the joints that rest meanwhile
   OffsetShapes shapes;

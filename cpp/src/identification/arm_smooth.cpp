@@ -20,10 +20,11 @@ constexpr double few_counts = 50.0;
 constexpr Index window = 7;
 constexpr Index half_window = window / 2;
 using Weights = std::array<double, window>;
-constexpr std::array<Weights, 3> centre_weights{
+constexpr std::array<Weights, 4> centre_weights{
     Weights{-1.0 / 60.0, 3.0 / 20.0, -3.0 / 4.0, 0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
     Weights{1.0 / 90.0, -3.0 / 20.0, 3.0 / 2.0, -49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0},
-    Weights{1.0 / 8.0, -1.0, 13.0 / 8.0, 0.0, -13.0 / 8.0, 1.0, -1.0 / 8.0}};
+    Weights{1.0 / 8.0, -1.0, 13.0 / 8.0, 0.0, -13.0 / 8.0, 1.0, -1.0 / 8.0},
+    Weights{-1.0 / 6.0, 2.0, -13.0 / 2.0, 28.0 / 3.0, -13.0 / 2.0, 2.0, -1.0 / 6.0}};
 
 }  // namespace
 

@@ -23,7 +23,7 @@ struct SmoothJoints {
 
   // Derivative of one joint's position over rows [begin, begin + count) of the span.
   [[nodiscard]] Eigen::VectorXd derivative(int order, Index joint, Index begin, Index count) const;
-  // The same at some rows of the span. order: 1, 2 or 3.
+  // The same at some rows of the span. order: 1 to 4.
   [[nodiscard]] Eigen::VectorXd derivative(int order, Index joint, const Eigen::ArrayXi& rows) const;
 };
 

@@ -81,6 +81,7 @@ void apply(ArmRows& rows, const HomeGroup& group, const RestingFit& resting, con
       stretch.velocity.col(joint) = count * velocity * c;
       stretch.acceleration.col(joint) = count * acceleration * c;
       stretch.jerk.col(joint).setZero();
+      stretch.snap.col(joint).setZero();
       std::erase_if(stretch.errors, [&](const PositionError& error) { return error.joint == joint; });
       stretch.follows[slot] = true;
       const Eigen::VectorXd zero = Eigen::VectorXd::Zero(stretch.rows());

@@ -59,7 +59,7 @@ ArmCase random_case(unsigned seed) {
   arm.layout.gyroscope_bias = arm.layout.claim(3);
   arm.layout.gyroscope_matrix = arm.layout.claim(9);
   arm.layout.gyroscope_delay = arm.layout.claim(1);
-  arm.instant = {3.0, vector(joints, 1.0), vector(joints, 1.0), vector(joints, 3.0), vector(joints, 10.0)};
+  arm.instant = {3.0, vector(joints, 1.0), vector(joints, 1.0), vector(joints, 3.0), vector(joints, 10.0), vector(joints, 30.0)};
   return arm;
 }
 
@@ -79,6 +79,27 @@ Eigen::MatrixXd differences(const ArmCase& arm) {
     jacobian.col(k) = (readings(by) - readings(-by)) / (2.0 * step);
   }
   return jacobian;
+}
+
+// Joints that swing to and fro at half a hertz.
+JointInstant swinging(double time, Index joints) {
+  constexpr double w = 3.14;  // rad/s
+  const Eigen::ArrayXd phase = w * time + Eigen::ArrayXd::LinSpaced(joints, 0.0, 2.0);
+  const Eigen::ArrayXd c = 1.3 * phase.cos();
+  const Eigen::ArrayXd s = 1.3 * phase.sin();
+  return {0.0, c, -w * s, -w * w * c, w * w * w * s, w * w * w * w * c};
+}
+
+TEST(ArmModel, a_delay_of_milliseconds_is_the_motion_before) {
+  ArmCase arm = random_case(1);
+  arm.state.clock_rate = 1.0;
+  for (const double delay : {1e-3, 4e-3, -4e-3}) {
+    arm.state.clock_offset = delay;
+    const Eigen::Vector3d delayed = ArmPredictor(arm.state, arm.layout).reading(swinging(0.7, 4));
+    arm.state.clock_offset = 0.0;
+    const Eigen::Vector3d before = ArmPredictor(arm.state, arm.layout).reading(swinging(0.7 - delay, 4));
+    EXPECT_LT((delayed - before).norm(), 2e-5) << delay;
+  }
 }
 
 TEST(ArmModel, derivatives_in_closed_form_are_those_of_finite_differences) {

@@ -43,6 +43,7 @@ ProblemCase a_problem(Index channels = 3) {
   stretch.velocity = matrix(rows, joints);
   stretch.acceleration = matrix(rows, joints);
   stretch.jerk = matrix(rows, joints);
+  stretch.snap = matrix(rows, joints);
   stretch.reading = 9.0 * matrix(rows, channels);
   stretch.noise = 0;
   const OffsetTerm term{0, add_parameters(problem.rows, Eigen::MatrixXd::Constant(1, 1, 1e-6))};
