@@ -90,6 +90,8 @@ void bind_results(py::module_& m) {
       .def_readonly("outliers", &WholeArmCalibration::outliers)
       .def_readonly("starts_tried", &WholeArmCalibration::starts_tried)
       .def_readonly("iterations", &WholeArmCalibration::iterations)
+      .def_readonly("unsettled", &WholeArmCalibration::unsettled,
+                    "standard deviations: a parameter's step in the last pass or what is left to the minimum, the larger")
       .def_readonly("converged", &WholeArmCalibration::converged);
 }
 

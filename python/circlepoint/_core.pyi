@@ -2572,6 +2572,11 @@ class WholeArmCalibration:
     def stretches(self) -> list[StretchResidual]:
         ...
     @property
+    def unsettled(self) -> float:
+        """
+        standard deviations: a parameter's step in the last pass or what is left to the minimum, the larger
+        """
+    @property
     def weak(self) -> list[WeakCombination]:
         ...
 class TemperatureProfile:

@@ -51,7 +51,10 @@ def with_whole_arm(document: Mapping[str, Any], arm: Arm, estimate: circlepoint.
         "end_point": _end_point_entry(arm, estimate),
         "hold_out": [_hold_out_entry(arm, stretch) for stretch in estimate.stretches],
         "encoders": (encoders := _encoder_entries(arm, estimate)),
-        "findings": [*document["findings"], *finding_entries(_encoder_findings(arm, document, encoders))],
+        "findings": [
+            *document["findings"],
+            *finding_entries([*_encoder_findings(arm, document, encoders), *_settling_findings(estimate)]),
+        ],
     }
 
 
@@ -135,6 +138,7 @@ def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
         "normalised_residual_rms": estimate.normalized_rms,
         "noise_inflation": estimate.noise_inflation,
         "iterations": estimate.iterations,
+        "unsettled": estimate.unsettled,
         "converged": estimate.converged,
     }
 
@@ -189,6 +193,19 @@ def _encoder_findings(arm: Arm, document: Mapping[str, Any], entries: Sequence[D
             )
             findings.append(Finding("eccentricity", message, joint))
     return findings
+
+
+def _settling_findings(estimate: circlepoint.WholeArmCalibration) -> list[Finding]:
+    if estimate.converged:
+        return []
+    return [
+        Finding(
+            "not-converged",
+            "the estimate had not settled when it ended: a parameter was off or still moving by "
+            f"{estimate.unsettled:.1g} standard deviations, and the noise it goes by may be too; the motions hardly "
+            "follow the model, or they are few: record more of them, slower if the arm shakes",
+        )
+    ]
 
 
 def _signed(entry: Document) -> str:

@@ -11,6 +11,7 @@ from circlepoint.document import load_schema
 from circlepoint.report import format_joint_table
 from circlepoint.report.tables import joint_table, sensor_table
 from circlepoint.sensor_presets import load_sensor
+from circlepoint.whole_arm_document import with_whole_arm
 
 UP = circlepoint.STANDARD_GRAVITY * np.array([0.48, -0.6, 0.64])
 LINES = [
@@ -292,3 +293,17 @@ def test_of_joints_that_are_seen_well_or_not_at_all_nothing_vague_is_told(record
     missing = calibrate(recorded(3, joints=range(3)), an_arm()).document["joints"][3]
     assert missing["reason"]
     assert "vague" not in missing
+
+
+def test_an_estimate_that_has_not_settled_says_so(recording):
+    settled = calibrate(recording, an_arm())
+    assert settled.whole_arm.unsettled < 0.05
+    assert not any(finding["code"] == "not-converged" for finding in settled.document["findings"])
+    options = whole_arm_options(an_arm(), None, circlepoint.STANDARD_GRAVITY, None)
+    options.max_passes = 2
+    cut_short = circlepoint.calibrate_whole_arm(recording, settled.segmentation, options)
+    document = with_whole_arm(settled.document, an_arm(), cut_short)
+    jsonschema.Draft202012Validator(load_schema()).validate(document)
+    (found,) = (finding for finding in document["findings"] if finding["code"] == "not-converged")
+    assert f"by {cut_short.unsettled:.1g} standard deviations" in found["message"]
+    assert document["fit"]["unsettled"] == cut_short.unsettled > 0.05

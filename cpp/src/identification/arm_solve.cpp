@@ -138,18 +138,20 @@ class ArmCost final : public ceres::CostFunction {
   mutable bool usable_ = false;
 };
 
-// Ends where a step would lower the sum of squares by next to nothing, and after one that has lowered it by little: near the minimum
-// what is left falls with its square. Ceres' own tolerances know neither what is little nor keep that step.
+// Ends where a step would lower the sum of squares by next to nothing, and after one that has lowered it by little and left little:
+// near the minimum what is left falls with the step's square, but not where the model bends and steps are cut short. Ceres' own
+// tolerances know neither what is little nor keep that step.
 class EndAtMinimum final : public ceres::IterationCallback {
  public:
   EndAtMinimum(const ArmCost& cost, double negligible_change) : cost_(cost), negligible_change_(negligible_change) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     const double next_to_nothing = 0.001 * negligible_change_;
+    const double little = 0.02 * negligible_change_;
     if (iteration.iteration > 0 && !iteration.step_is_successful) {
       return ceres::SOLVER_CONTINUE;
     }
     const bool small = iteration.iteration > 0 && 2.0 * iteration.cost_change < negligible_change_;
-    return small || cost_.expected_fall() < next_to_nothing ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    return cost_.expected_fall() < (small ? little : next_to_nothing) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:

@@ -196,7 +196,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
     const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
     const int cutting = since == 0 ? first_cut : since + 1;
-    result.converged = pass > cutting + 1 && left < still && largest_step(former, state, problem.layout, covariance) < still;
+    result.unsettled = std::max(left, largest_step(former, state, problem.layout, covariance));
+    result.converged = pass > cutting + 1 && result.unsettled < still;
     // The first pass's noise is a guess, or of other columns, and nothing follows from its scores; nor any more from the last's.
     const double ratio = pass > since && !result.converged ? score_ratio(problem, parts, covariance) : 1.0;
     const bool wrong = pass == cutting + passes_that_cut && problem.noise.inflation * ratio > disagreement;

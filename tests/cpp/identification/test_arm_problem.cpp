@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "arm_marginal.hpp"
 #include "arm_offsets.hpp"
 #include "arm_problem.hpp"
 #include "arm_solve.hpp"
@@ -141,6 +142,24 @@ TEST(SolveTest, TakesNoStepWhereNothingIsLeftToGain) {
   EXPECT_EQ(flattened(again.state, given.problem.layout), flattened(there.state, given.problem.layout));
   expect_same(again.parts, linearise_data(given.problem, there.state), 0.0);
 }
+
+// Readings the arm explains badly: the model bends within what they leave open, and steps gain little each.
+class SolveMisfit : public testing::TestWithParam<double> {};
+
+TEST_P(SolveMisfit, EndsWhereLittleIsLeft) {
+  ProblemCase given = a_problem();
+  const ArmResiduals off = residuals(given.problem, given.state);
+  given.problem.rows.stretches[0].reading += (1.0 - GetParam()) * off.moving[0];
+  given.problem.rows.dwells[0].reading += (1.0 - GetParam()) * off.dwells.row(0).transpose();
+  constexpr double negligible = 0.1;
+  const ArmSolution found = solve(given.problem, given.state, 500, negligible);
+  ASSERT_TRUE(found.converged);
+  NormalEquations all = marginal(given.problem, found.parts).equations;
+  all += linearise_prior(given.problem, found.state);
+  EXPECT_LT(all.gradient.dot(all.information.ldlt().solve(all.gradient)), 0.1 * negligible);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shares, SolveMisfit, testing::Values(0.03, 0.1));
 
 TEST(KeptSystemsTest, AreMadeAnewAtAnotherState) {
   ProblemCase given = a_problem();

@@ -118,6 +118,7 @@ struct WholeArmCalibration {
   Index outliers = 0;           ///< rows left out as knocks
   int starts_tried = 0;
   int iterations = 0;
+  double unsettled = 0.0;       ///< standard deviations: a parameter's step in the last pass or what is left to the minimum, the larger
   bool converged = false;
 };
 
