@@ -73,7 +73,7 @@ lint: install .venv/dev.stamp
 accuracy: install
 	$(BIN)/python bench/python/paper_noise.py
 
-# The whole-arm estimate: efficiency against the Cramer-Rao bound and honesty, SEEDS a case (200: some 30 minutes), then what it
+# The whole-arm estimate: efficiency against the Cramer-Rao bound and honesty, SEEDS a case (200: some 25 minutes), then what it
 # makes of the recordings in the folder CIRCLEPOINT_SHARED_DATA, where there is one, and its time by samples.
 SEEDS ?= 200
 whole-arm-accuracy: install

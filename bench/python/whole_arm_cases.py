@@ -84,6 +84,7 @@ CASES = (
     Case("tests, 400,000 counts, joints yield", compliance=1e-4),
     Case("tests, vibration", vibration=0.1),
     Case("tests, 4,096 counts", counts=4096.0),
+    Case("tests, 1,024 counts", counts=1024.0),
     Case("tests, MEMS", sensor="mems", noise=0.02),
     Case("all joints at once", free=True, counts=0.0, bounded=True),
     Case("all at once, vibration", free=True, vibration=0.1),
