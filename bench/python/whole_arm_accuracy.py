@@ -46,7 +46,8 @@ def estimate(case: Case, recording: cp.Recording) -> cp.WholeArmCalibration:
     if case.scale > 0.0:
         options.scale = cp.ParameterTreatment(std=case.scale)
     if case.counts > 0.0:
-        options.encoder_resolution = np.full(len(types), 2 * np.pi / case.counts)
+        unit = [2 * np.pi if kind == cp.JointType.revolute else 1.0 for kind in types]  # a turn, a metre
+        options.encoder_resolution = np.array(unit) / case.counts
     segmentation = cp.segment(recording, cp.SegmentationOptions(joint_types=types))
     return cp.calibrate_whole_arm(recording, segmentation, options)
 
@@ -67,7 +68,7 @@ def trial(case: Case, seed: int) -> Trial:
         for joint, (mine, theirs) in enumerate(zip(chain.axes, made_of.chain.axes, strict=True))
         for name, error in zip(("d1", "d2", "p1", "p2"), cp.local_coordinates(mine.line, theirs.line), strict=True)
     }
-    errors = [local[p.name] if p.name in local else p.value - true_values[p.name] for p in result.parameters]
+    errors = [local[p.name] if p.name in local else p.value - true_values.get(p.name, 0.0) for p in result.parameters]
     predicted = cp.end_point_std(result, poses(made_of.chain))
     return Trial(
         [p.name for p in result.parameters],

@@ -175,6 +175,9 @@ def calibrate(
         raise circlepoint.InvalidInput(
             f"treatments of {', '.join(treatments)} are for the method whole-arm, asked for is {method}; leave them out"
         )
+    gyroscopes = [name for name in treatments or () if name.startswith("gyroscope")]
+    if gyroscopes and recording.angular_velocity is None:
+        raise circlepoint.InvalidInput(f"{gyroscopes[0]}: this recording has no gyroscope; leave it out")
     segmentation = circlepoint.segment(recording, circlepoint.SegmentationOptions(joint_types=joint_types(arm)))
     whole_arm = None
     if method == "whole-arm":

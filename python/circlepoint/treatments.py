@@ -82,11 +82,15 @@ def set_treatments(options: WholeArmOptions, treatments: Mapping[str, ParameterT
     Raises
     ------
     InvalidInput
-        For another name.
+        For another name, or a treatment that says nothing else than leaving the group out.
     """
     for name, treatment in treatments.items():
         if name not in PARAMETER_GROUPS:
             raise InvalidInput(f"{name!r} is no group of parameters; there are {', '.join(PARAMETER_GROUPS)}")
+        if treatment.estimated and treatment.std == 0.0:
+            raise InvalidInput(f"{name}: std is 0; give estimated=False to fix it, or leave it out")
+        if treatment.where_evident:
+            raise InvalidInput(f"{name}: where_evident is how encoders' errors are treated anyway; leave it out")
         setattr(options, name, treatment)
 
 

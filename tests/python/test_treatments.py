@@ -5,7 +5,7 @@ import json
 import jsonschema
 import numpy as np
 import pytest
-from whole_arm_support import free, recorded, sweeps_of
+from whole_arm_support import estimate, free, recorded, sweeps_of
 
 import circlepoint as cp
 from circlepoint.arm import Arm, Joint
@@ -105,6 +105,27 @@ def test_gravity_of_another_place_is_found_where_the_scale_is_known():
     assert document["treatments"] == {"scale": "fixed", "gravity": 0.05}
 
 
+@pytest.mark.parametrize("how", [cp.ParameterTreatment(), cp.ParameterTreatment(std=0.1)], ids=["free", "prior"])
+@pytest.mark.parametrize("sensor", [None, "mems"])
+def test_gravitys_magnitude_that_nothing_shows_hides_no_line(recording, sensor, how):
+    specification = None if sensor is None else load_sensor(sensor)
+    calibration = calibrate(recording, ARM, sensor=specification, treatments={"gravity": how})
+    assert calibration.joints.complete()
+
+
+def test_what_cannot_be_estimated_so_is_refused(recording):
+    free_clock = {"clock_offset": FIXED, "clock_rate": cp.ParameterTreatment()}
+    with pytest.raises(cp.InvalidInput, match="fix both or neither"):
+        calibrate(recording, ARM, treatments=free_clock)
+    still = cp.make_recording(recording.time, recording.joint_positions, recording.specific_force)
+    with pytest.raises(cp.InvalidInput, match="gyroscope_delay: this recording has no gyroscope"):
+        calibrate(still, ARM, treatments={"gyroscope_delay": FIXED})
+    with pytest.raises(cp.InvalidInput, match="scale: std is 0"):
+        calibrate(recording, ARM, treatments={"scale": cp.ParameterTreatment(std=0.0)})
+    with pytest.raises(cp.InvalidInput, match="encoder_gain: where_evident"):
+        calibrate(recording, ARM, treatments={"encoder_gain": cp.ParameterTreatment(where_evident=True)})
+
+
 def test_without_treatments_the_document_says_nothing_of_them(recording):
     assert "treatments" not in document_of(recording)
 
@@ -119,7 +140,7 @@ def test_treatments_of_another_method_or_name_are_refused(recording):
 @pytest.mark.parametrize("group", PARAMETER_GROUPS)
 def test_a_negative_standard_deviation_is_refused_by_name(recording, group):
     with pytest.raises(cp.InvalidInput, match=f"{group}: std is -1"):
-        calibrate(recording, ARM, treatments={group: cp.ParameterTreatment(std=-1.0)})
+        estimate(recording, **{group: cp.ParameterTreatment(std=-1.0)})
 
 
 class TestCommand:

@@ -53,6 +53,8 @@ void validate(const Recording& recording, const WholeArmOptions& options) {
   check("gyroscope_bias", options.gyroscope_bias);
   check("gyroscope_matrix", options.gyroscope_matrix);
   check("gyroscope_delay", options.gyroscope_delay);
+  require(options.clock_offset.estimated || !options.clock_rate.estimated,
+          "clock_rate cannot be estimated while clock_offset is fixed; fix both or neither");
   require(options.max_passes > 0, "max_passes is " + std::to_string(options.max_passes) + "; give 1 or more");
 }
 
@@ -94,6 +96,23 @@ double largest_step(const ArmState& before, const ArmState& after, const ArmLayo
   }
   const Eigen::VectorXd std = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
   return change.cwiseAbs().cwiseQuotient(std).maxCoeff();
+}
+
+// By the data alone, or by what is known of the sensor. The magnitude, where it is estimated, is another matter: only with a known
+// scale would the data show it.
+bool gravity_direction_seen(NormalEquations data, const Eigen::MatrixXd& covariance, const ArmState& state, const ArmLayout& layout,
+                            const WholeArmOptions& options) {
+  constexpr double pinned = 1e-4;  // m/s^2
+  const Index at = layout.up_gravity;
+  const Eigen::Vector3d up = state.up_gravity.normalized();
+  data.information.block<3, 3>(at, at) += up * up.transpose() / (pinned * pinned);
+  const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * options.gravity_magnitude; };
+  if (settled(identifiability(data, covariance, state, layout).data_std.segment<3>(at))) {
+    return true;
+  }
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - up * up.transpose();
+  const Eigen::Matrix3d known = across * covariance.block<3, 3>(at, at) * across;
+  return options.sensor_is_known && settled(known.diagonal().cwiseMax(0.0).cwiseSqrt());
 }
 
 }  // namespace
@@ -194,7 +213,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     covariance = ScaledInformation(information, 1e-15).inverse();
     now = residuals(problem, state, &kept);
     const Eigen::VectorXd gradient = all.gradient + prior.gradient;
-    const double left = std::sqrt(gradient.dot(covariance * gradient));  // to the minimum, in standard deviations
+    const double left = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));  // to the minimum, in standard deviations
     const int cutting = since == 0 ? first_cut : since + 1;
     result.unsettled = std::max(left, largest_step(former, state, problem.layout, covariance));
     result.converged = pass > cutting + 1 && result.unsettled < still;
@@ -264,9 +283,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.gyroscope_matrix = state.gyroscope_matrix;
   result.gyroscope_delay = state.gyroscope_delay;
 
-  const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * options.gravity_magnitude; };
-  const bool gravity_seen = settled(seen.data_std.segment<3>(problem.layout.up_gravity)) ||
-                            (options.sensor_is_known && settled(covariance.diagonal().segment<3>(problem.layout.up_gravity).cwiseSqrt()));
+  const bool gravity_seen = gravity_direction_seen(all, covariance, state, problem.layout, options);
   write_lines(result.joints, problem.layout, state, covariance, gravity_seen);
   write_sensor(result.joints, problem.layout, state, covariance);
   result.joints.converged = result.converged;

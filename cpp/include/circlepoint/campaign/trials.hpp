@@ -38,7 +38,7 @@ struct TrialResult {
   std::vector<LineComparison> lines;  ///< base to tip
   SensorComparison sensor;            ///< NaN where the method does not estimate the sensor
   double end_point_error = not_compared;  ///< m, rms over the configurations; NaN unless complete
-  double end_point_std = not_compared;    ///< m, the same as predicted by the lines' covariance
+  double end_point_std = not_compared;    ///< m, the same as predicted
 };
 
 /// One trial. Raises InvalidInput for conditions that cannot be simulated.

@@ -56,7 +56,7 @@ struct WholeArmOptions {
   bool use_gyroscope = true;            ///< where there is one
   double gravity_magnitude = standard_gravity;  ///< m/s^2
   double cutoff = 0.0;                  ///< Hz, of the common low-pass; 0: chosen from rate, motion and encoders
-  int max_passes = 12;                  ///< of estimating parameters and noise in turn, anew whenever an encoder is found to be off
+  int max_passes = 20;                  ///< of estimating parameters and noise in turn, anew whenever an encoder is found to be off
   int random_starts = 200;              ///< where tests do not give start values
   std::uint64_t seed = 0;               ///< of the random starts
   unsigned threads = 0;                 ///< 0: as many as the machine has
