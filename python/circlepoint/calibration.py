@@ -194,7 +194,14 @@ def calibrate(
     chain = joints.chain() if joints.complete() else None
     dh = None if chain is None else to_rows(chain, nominal_dh_chain(arm))
     document = result_document(
-        arm, method=method, gravity=gravity, segmentation=segmentation, joints=joints, chain=chain, dh=dh
+        arm,
+        method=method,
+        gravity=gravity,
+        segmentation=segmentation,
+        joints=joints,
+        chain=chain,
+        dh=dh,
+        whole_arm=whole_arm,
     )
     if whole_arm is not None:
         document = with_whole_arm(document, arm, whole_arm)

@@ -48,6 +48,7 @@ def result_document(
     joints: circlepoint.JointCalibration,
     chain: circlepoint.ScrewChain | None,
     dh: DhConversion | None,
+    whole_arm: circlepoint.WholeArmCalibration | None = None,
 ) -> Document:
     """Return the document of a calibration; every field is described in the schema.
 
@@ -61,6 +62,8 @@ def result_document(
     joints : JointCalibration
     chain : ScrewChain or None
     dh : StandardDhConversion, ModifiedDhConversion, HayatiConversion or None
+    whole_arm : WholeArmCalibration, optional
+        Whose lines these are: its encoders' corrections are then in the end-point's standard deviation.
     """
     estimated = [estimate.joint for estimate in joints.joints if estimate.axis is not None]
     return {
@@ -78,7 +81,7 @@ def result_document(
         "covariance": _covariance_entry(arm, joints, estimated),
         "identifiability": _identifiability_entry(arm, joints),
         "fit": _fit_entry(joints),
-        "end_point": _end_point_entry(arm, chain, joints),
+        "end_point": _end_point_entry(arm, chain, joints, whole_arm),
         "findings": finding_entries(_acceleration_findings(arm, method, joints)),
         **({"mimics": mimics} if (mimics := mimic_entries(arm)) else {}),
     }
@@ -303,17 +306,19 @@ def _rms(values: Sequence[float]) -> float | None:
 
 
 def _end_point_entry(
-    arm: Arm, chain: circlepoint.ScrewChain | None, joints: circlepoint.JointCalibration
+    arm: Arm,
+    chain: circlepoint.ScrewChain | None,
+    joints: circlepoint.JointCalibration,
+    whole_arm: circlepoint.WholeArmCalibration | None,
 ) -> Document | None:
     if chain is None:
         return None
-    return end_point_entry(
-        circlepoint.end_point_std(chain, joints.covariance, workspace(arm, joints.reference_configuration))
+    poses = workspace(arm, joints.reference_configuration)
+    std = (
+        circlepoint.end_point_std(chain, joints.covariance, poses)
+        if whole_arm is None
+        else circlepoint.end_point_std(whole_arm, poses)
     )
-
-
-def end_point_entry(std: NDArray[np.float64]) -> Document:
-    """Return the entry of the end-point's standard deviations (P,), m, over the workspace."""
     return {
         "rms": float(np.sqrt(np.mean(np.square(std)))),
         "max": float(np.max(std)),

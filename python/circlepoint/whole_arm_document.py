@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import circlepoint
 from circlepoint.document import Document, estimate_entry, finding_entries, plain
 from circlepoint.findings import Finding
-from circlepoint.result_document import end_point_entry, workspace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from typing import Any
 
+    import circlepoint
     from circlepoint.arm import Arm
 
 _TRIPLES = {
@@ -48,7 +47,6 @@ def with_whole_arm(document: Mapping[str, Any], arm: Arm, estimate: circlepoint.
         "covariance": _covariance_entry(arm, estimate),
         "identifiability": _identifiability_entry(document, estimate),
         "fit": _fit_entry(estimate),
-        "end_point": _end_point_entry(arm, estimate),
         "hold_out": [_hold_out_entry(arm, stretch) for stretch in estimate.stretches],
         "encoders": (encoders := _encoder_entries(arm, estimate)),
         "findings": [
@@ -141,13 +139,6 @@ def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
         "unsettled": estimate.unsettled,
         "converged": estimate.converged,
     }
-
-
-def _end_point_entry(arm: Arm, estimate: circlepoint.WholeArmCalibration) -> Document | None:
-    if not estimate.joints.complete():
-        return None
-    poses = workspace(arm, estimate.joints.reference_configuration)
-    return end_point_entry(circlepoint.end_point_std(estimate, poses))
 
 
 def _encoder_entries(arm: Arm, estimate: circlepoint.WholeArmCalibration) -> list[Document]:

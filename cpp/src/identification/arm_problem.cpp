@@ -277,20 +277,20 @@ std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmSt
   return parts;
 }
 
-NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state) {
-  NormalEquations all = NormalEquations::zero(problem.layout.columns);
-  if (problem.layout.up_gravity >= 0 && std::isfinite(problem.prior.gravity_std)) {
-    const double residual = (state.up_gravity.norm() - problem.prior.gravity) / problem.prior.gravity_std;
-    const Eigen::Vector3d slope = state.up_gravity.normalized() / problem.prior.gravity_std;
-    all.information.block<3, 3>(problem.layout.up_gravity, problem.layout.up_gravity) = slope * slope.transpose();
-    all.gradient.segment<3>(problem.layout.up_gravity) = slope * residual;
+NormalEquations linearise_gravity(const ArmLayout& layout, const ArmState& state, double magnitude, double std) {
+  NormalEquations all = NormalEquations::zero(layout.columns);
+  if (layout.up_gravity >= 0 && std::isfinite(std)) {
+    const double residual = (state.up_gravity.norm() - magnitude) / std;
+    const Eigen::Vector3d slope = state.up_gravity.normalized() / std;
+    all.information.block<3, 3>(layout.up_gravity, layout.up_gravity) = slope * slope.transpose();
+    all.gradient.segment<3>(layout.up_gravity) = slope * residual;
     all.cost = residual * residual;
   }
   return all;
 }
 
 NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state) {
-  NormalEquations all = linearise_gravity(problem, state);
+  NormalEquations all = linearise_gravity(problem.layout, state, problem.prior.gravity, problem.prior.gravity_std);
   const Eigen::VectorXd value = values(state, problem.layout);
   for (const PriorTerm& term : problem.prior.terms) {
     const Index size = term.mean.size();

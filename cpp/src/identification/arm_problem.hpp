@@ -78,8 +78,8 @@ struct KeptSystems {
 std::vector<PartEquations> linearise_data(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr,
                                           std::vector<PartEquations> parts = {});
 NormalEquations linearise_prior(const ArmProblem& problem, const ArmState& state);
-// The part of it that the magnitude of gravity makes, which counts as data where that is known.
-NormalEquations linearise_gravity(const ArmProblem& problem, const ArmState& state);
+// What a magnitude of gravity known to a standard deviation makes, m/s^2: a part of it, which counts as data where that is known.
+NormalEquations linearise_gravity(const ArmLayout& layout, const ArmState& state, double magnitude, double std);
 
 ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSystems* kept = nullptr);
 

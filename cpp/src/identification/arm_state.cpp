@@ -71,11 +71,10 @@ Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout) {
 std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout& layout) {
   std::vector<std::string> names(static_cast<std::size_t>(layout.columns));
   const auto put = [&](Index column, const std::string& name) { names[static_cast<std::size_t>(column)] = name; };
-  const std::array<const char*, 4> line{"d1", "d2", "p1", "p2"};
   for (std::size_t i = 0; i < state.axes.size(); ++i) {
     const auto count = static_cast<int>(line_columns(state.axes[i]));
     for (int k = 0; layout.lines[i] >= 0 && k < count; ++k) {
-      put(layout.lines[i] + k, "joint" + std::to_string(i + 1) + "." + line[static_cast<std::size_t>(k)]);
+      put(layout.lines[i] + k, "joint" + std::to_string(i + 1) + "." + line_coordinates[static_cast<std::size_t>(k)]);
     }
   }
   const auto triple = [&](Index column, const std::string& name, const std::array<const char*, 3>& suffix) {

@@ -2,6 +2,7 @@
 // Everything the whole-arm estimate may not know, and which of it is estimated in which columns.
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -86,6 +87,9 @@ Eigen::VectorXd flattened(const ArmState& state, const ArmLayout& layout);
 
 // Current values of the layout's columns; a line's are zero.
 Eigen::VectorXd values(const ArmState& state, const ArmLayout& layout);
+
+// Of a line, after its joint's name; of a sliding joint the first two.
+inline constexpr std::array<const char*, 4> line_coordinates{"d1", "d2", "p1", "p2"};
 
 // One name a column: joint1.d1 ..., gravity_x, bias_x ...
 std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout& layout);

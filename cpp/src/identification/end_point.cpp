@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "arm_state.hpp"
 #include "circlepoint/core/error.hpp"
 #include "circlepoint/identification/joint_calibration.hpp"
 #include "circlepoint/identification/whole_arm.hpp"
@@ -73,11 +74,10 @@ struct Movers {
 };
 
 Movers movers(const WholeArmCalibration& calibration) {
-  constexpr std::array<const char*, 4> line{"d1", "d2", "p1", "p2"};
   Movers found;
   for (Index joint = 0; joint < static_cast<Index>(calibration.joints.joints.size()); ++joint) {
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      if (const Index column = column_of(calibration, joint, line[k]); column >= 0) {
+    for (std::size_t k = 0; k < line_coordinates.size(); ++k) {
+      if (const Index column = column_of(calibration, joint, line_coordinates[k]); column >= 0) {
         found.lines.push_back({column, 4 * joint + static_cast<Index>(k)});
       }
     }

@@ -29,6 +29,7 @@ constexpr int passes_to_settle = 5;     // in which the sensor's noise is told f
 constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
+constexpr double pinned_gravity = 1e-4;   // m/s^2
 
 // What calibrate_joints does not check.
 void validate(const Recording& recording, const WholeArmOptions& options) {
@@ -98,21 +99,22 @@ double largest_step(const ArmState& before, const ArmState& after, const ArmLayo
   return change.cwiseAbs().cwiseQuotient(std).maxCoeff();
 }
 
-// By the data alone, or by what is known of the sensor. The magnitude, where it is estimated, is another matter: only with a known
-// scale would the data show it.
-bool gravity_direction_seen(NormalEquations data, const Eigen::MatrixXd& covariance, const ArmState& state, const ArmLayout& layout,
-                            const WholeArmOptions& options) {
-  constexpr double pinned = 1e-4;  // m/s^2
-  const Index at = layout.up_gravity;
-  const Eigen::Vector3d up = state.up_gravity.normalized();
-  data.information.block<3, 3>(at, at) += up * up.transpose() / (pinned * pinned);
-  const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * options.gravity_magnitude; };
-  if (settled(identifiability(data, covariance, state, layout).data_std.segment<3>(at))) {
-    return true;
+// By the data alone, or by what is known of the sensor. A magnitude that is estimated and that nothing shows hides no direction.
+bool gravity_direction_seen(const ArmProblem& problem, const ArmState& state, const NormalEquations& data, const Identifiability& seen,
+                            const Eigen::MatrixXd& covariance, bool sensor_is_known) {
+  const Index at = problem.layout.up_gravity;
+  const double magnitude = problem.prior.gravity;
+  const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * magnitude; };
+  Eigen::Vector3d data_std = seen.data_std.segment<3>(at);
+  if (!problem.prior.gravity_known) {
+    NormalEquations with_magnitude = data;
+    with_magnitude += linearise_gravity(problem.layout, state, magnitude, pinned_gravity);
+    data_std = identifiability(with_magnitude, covariance, state, problem.layout).data_std.segment<3>(at);
   }
+  const Eigen::Vector3d up = state.up_gravity.normalized();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - up * up.transpose();
   const Eigen::Matrix3d known = across * covariance.block<3, 3>(at, at) * across;
-  return options.sensor_is_known && settled(known.diagonal().cwiseMax(0.0).cwiseSqrt());
+  return settled(data_std) || (sensor_is_known && settled(known.diagonal().cwiseMax(0.0).cwiseSqrt()));
 }
 
 }  // namespace
@@ -262,7 +264,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
 
   result.covariance = covariance;
   if (problem.prior.gravity_known) {
-    all += linearise_gravity(problem, state);
+    all += linearise_gravity(problem.layout, state, problem.prior.gravity, problem.prior.gravity_std);
   }
   const Identifiability seen = identifiability(all, covariance, state, problem.layout);
   result.rank = seen.rank;
@@ -283,7 +285,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.gyroscope_matrix = state.gyroscope_matrix;
   result.gyroscope_delay = state.gyroscope_delay;
 
-  const bool gravity_seen = gravity_direction_seen(all, covariance, state, problem.layout, options);
+  const bool gravity_seen = gravity_direction_seen(problem, state, all, seen, covariance, options.sensor_is_known);
   write_lines(result.joints, problem.layout, state, covariance, gravity_seen);
   write_sensor(result.joints, problem.layout, state, covariance);
   result.joints.converged = result.converged;
