@@ -69,12 +69,13 @@ def trial(case: Case, seed: int) -> Trial:
         for name, error in zip(("d1", "d2", "p1", "p2"), cp.local_coordinates(mine.line, theirs.line), strict=True)
     }
     errors = [local[p.name] if p.name in local else p.value - true_values.get(p.name, 0.0) for p in result.parameters]
-    predicted = cp.end_point_std(result, poses(made_of.chain))
+    configurations = poses(made_of.chain)
+    predicted = cp.end_point_std(result, configurations)
     return Trial(
         [p.name for p in result.parameters],
         np.array(errors),
         np.array([p.std for p in result.parameters]),
-        cp.end_point_error(chain, made_of.chain, poses(made_of.chain)),
+        cp.end_point_error(chain, made_of.chain, configurations),
         float(np.sqrt(np.mean(predicted**2))),
     )
 

@@ -8,6 +8,7 @@ off its drawing, where a case says no other.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,11 +39,13 @@ UR5 = (
 )
 
 
+@cache
 def demonstration_arm() -> cp.ScrewChain:
     """Return seven joints, built a little off the drawing."""
     return built_arm(load_arm(ARM_FILE), np.full(7, REST), 1)
 
 
+@cache
 def three_parallel_axes() -> cp.ScrewChain:
     """Return a UR5 as drawn: the axes of shoulder, elbow and first wrist joint exactly parallel."""
     rows = [cp.DhRow(a, alpha, d, 0.0) for a, alpha, d in UR5]
@@ -52,6 +55,7 @@ def three_parallel_axes() -> cp.ScrewChain:
     return cp.to_screws(chain, np.full(len(rows), REST), cp.BaseFrame.sensor_at_reference)
 
 
+@cache
 def sliding_joint() -> cp.ScrewChain:
     """Return the demonstration's arm with a fourth joint that slides."""
     chain = demonstration_arm()

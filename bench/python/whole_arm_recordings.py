@@ -15,12 +15,13 @@ import time
 from pathlib import Path
 
 import numpy as np
+from whole_arm_cases import UP, demonstration_arm, poses
 
 import circlepoint as cp
 from circlepoint.arm import Arm, Joint, load_arm
 from circlepoint.calibration import Calibration, calibrate
-from circlepoint.demo import ARM_FILE, built_arm
 from circlepoint.recording_io import read_recording
+from circlepoint.report.text import missing_joints
 from circlepoint.sensor_presets import load_sensor
 from circlepoint.truth import truth_chain
 
@@ -42,15 +43,15 @@ def against_truth(result: Calibration, folder: Path) -> None:
     errors = np.array(
         [cp.local_coordinates(mine.line, theirs.line) for mine, theirs in zip(chain.axes, truth.axes, strict=True)]
     )
-    poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (200, len(errors))) + chain.reference_configuration
-    predicted = cp.end_point_std(result.whole_arm, poses)
+    configurations = poses(chain)
+    predicted = cp.end_point_std(result.whole_arm, configurations)
     covariance = np.asarray(result.joints.covariance)  # zero where a sliding joint has no point
     estimated = np.count_nonzero(np.diag(covariance))
     squares = errors.ravel() @ np.linalg.pinv(covariance, hermitian=True) @ errors.ravel() / estimated
     print(
         f"  axes within {1e3 * np.linalg.norm(errors[:, :2], axis=1).max():.3f} mrad, lines within "
         f"{1e3 * np.linalg.norm(errors[:, 2:], axis=1).max():.3f} mm, end-point "
-        f"{1e3 * cp.end_point_error(chain, truth, poses):.3f} mm rms (predicted "
+        f"{1e3 * cp.end_point_error(chain, truth, configurations):.3f} mm rms (predicted "
         f"{1e3 * np.sqrt(np.mean(predicted**2)):.3f}); normalised squares {squares:.2f}"
     )
 
@@ -67,11 +68,7 @@ def against_nominal(result: Calibration, arm: Arm) -> None:
     for entry in result.document.get("encoders", []):
         errors = [f"{name} {e['estimate']:.5f} ± {e['std']:.5f}" for name, e in entry.items() if isinstance(e, dict)]
         print(f"  encoder of {entry['joint']}: {', '.join(errors)}")
-    reasons: dict[str, list[str]] = {}
-    for joint in result.document["joints"]:
-        if joint["reason"]:
-            reasons.setdefault(joint["reason"], []).append(joint["name"])
-    for reason, joints in reasons.items():
+    for reason, joints in missing_joints(result.document).items():
         print(f"  {', '.join(joints)}: {reason}")
 
 
@@ -113,16 +110,14 @@ def recording(folder: Path) -> None:
 
 def growth() -> None:
     """Print the time of the estimate by samples: 7 joints, all moving, at 250 Hz."""
-    start = np.full(7, -1.2)
-    chain = built_arm(load_arm(ARM_FILE), start, 1)
-    up = cp.STANDARD_GRAVITY * np.array([0.36, 0.48, 0.80])
+    chain = demonstration_arm()
     for samples in (100_000, 200_000, 400_000, 800_000, 1_600_000):
         motion = [cp.MultiJointMotion(duration=samples / 250.0, amplitude=np.full(7, 1.2), seed=7)]
         made = cp.simulate(
             chain,
-            up,
+            UP,
             cp.draw_accelerometer(load_sensor("qa700"), 0),
-            cp.joint_trajectory(start, motion, 250.0, 0.6),
+            cp.joint_trajectory(chain.reference_configuration, motion, 250.0, 0.6),
             cp.SimulationOptions(noise_std=0.01, seed=0),
         )
         options = cp.WholeArmOptions()

@@ -56,13 +56,18 @@ def format_joint_table(document: Document, truth: Mapping[str, Any] | None = Non
         columns.append(["off nominal", "mrad", *align_decimals([milli(entry.direction) for entry in nominal])])
         columns.append(["", "mm", *align_decimals([milli(entry.point) for entry in nominal])])
     lines = _layout(columns, header_rows=2) if any(map(is_estimated, joints)) else []
-    reasons: dict[str, list[str]] = {}
-    for joint in joints:
-        if not is_estimated(joint):
-            reasons.setdefault(joint.get("reason") or "No reason was given.", []).append(joint["name"])
-    lines += [f"{', '.join(names)}: not estimated. {reason}" for reason, names in reasons.items()]
+    lines += [f"{', '.join(names)}: not estimated. {reason}" for reason, names in missing_joints(document).items()]
     lines += [f"{joint['name']}, {seen}" for joint in joints if (seen := as_far_as_seen(joint))]
     return "\n".join(lines) + "\n"
+
+
+def missing_joints(document: Document) -> dict[str, list[str]]:
+    """Return the names of the joints that were not estimated, by reason."""
+    reasons: dict[str, list[str]] = {}
+    for joint in document["joints"]:
+        if not is_estimated(joint):
+            reasons.setdefault(joint.get("reason") or "No reason was given.", []).append(joint["name"])
+    return reasons
 
 
 def as_far_as_seen(joint: Document) -> str:
