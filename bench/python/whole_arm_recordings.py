@@ -2,6 +2,7 @@
 
 FOLDER holds one folder a recording: log.csv, or joints.csv and sensor.csv, arm.yaml and, where it is known, truth.json;
 of those in UNDESCRIBED nothing is known but the number of joints.
+Of still poses of several sensors each sensor is taken for itself, supposed to be of the MEMS class.
 Against a truth: the largest error of an axis and of a line, the end-point's over 200 poses and what was predicted. Else
 the lengths that are not zero nominally, beside the nominal ones, which are not used; and what is not given, and why. At
 the end the time the estimate takes for a simulated arm of seven joints, by samples.
@@ -12,6 +13,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -21,14 +23,13 @@ import circlepoint as cp
 from circlepoint.arm import Arm, Joint, load_arm
 from circlepoint.calibration import Calibration, calibrate
 from circlepoint.recording_io import read_recording
-from circlepoint.report.text import missing_joints
+from circlepoint.report.text import as_far_as_seen, missing_joints
 from circlepoint.sensor_presets import load_sensor
 from circlepoint.truth import truth_chain
 
 SENSORS = {"qa700": "qa700", "mems": "mems", "ideal": "ideal", "coarse": "qa700"}  # by the last word of a folder's name
 LOGS = (("log.csv",), ("joints.csv", "sensor.csv"))
 UNDESCRIBED = {  # file and joints
-    "real-franka-static": ("static.csv", 7),
     "real-hebi-5module": ("log.csv.gz", 4),
     "real-ur3e-rtde": ("recording.csv", 6),
 }
@@ -70,6 +71,9 @@ def against_nominal(result: Calibration, arm: Arm) -> None:
         print(f"  encoder of {entry['joint']}: {', '.join(errors)}")
     for reason, joints in missing_joints(result.document).items():
         print(f"  {', '.join(joints)}: {reason}")
+    for joint in result.document["joints"]:
+        if seen := as_far_as_seen(joint):
+            print(f"  {joint['name']}, {seen}")
 
 
 def described(folder: Path) -> tuple[Arm, list[Path]] | None:
@@ -84,8 +88,35 @@ def described(folder: Path) -> tuple[Arm, list[Path]] | None:
     return load_arm(folder / "arm.yaml"), [folder / name for name in names]
 
 
+def still_poses(folder: Path) -> None:
+    """Print, sensor by sensor, the angles between neighbouring axes, beside the right angles that the maker states."""
+    rows = np.loadtxt(folder / "static.csv", delimiter=",", skiprows=1)  # pose, q1 .. q7, imu, ax, ay, az
+    print(f"{folder.name}: {len(set(rows[:, 0]))} still poses, sensors of the class mems")
+    for sensor in range(1, 7):
+        joints = min(sensor + 1, 6)  # those that move it
+        mine = rows[rows[:, 8] == sensor]
+        table = cp.make_static_recording(mine[:, 1 : 1 + joints].copy(), mine[:, 9:].copy())
+        arm = Arm(folder.name, tuple(Joint(f"joint{number}", "revolute") for number in range(1, joints + 1)))
+        result = calibrate(table, arm, sensor=load_sensor("mems"))
+        told = [estimate.vague for estimate in result.joints.joints]
+        angles = [
+            f"{np.degrees(np.arccos(a.screw.line.direction @ b.screw.line.direction)):.1f} ± "
+            f"{np.degrees(np.hypot(a.direction_std(), b.direction_std())):.1f}"
+            for a, b in pairwise(told)
+            if a is not None and b is not None
+        ]
+        missing = ", ".join(f"joint{i + 1}" for i, line in enumerate(told) if line is None)
+        print(
+            f"  sensor {sensor}, {joints} joints: neighbours at {', '.join(angles) or 'no angle told'} deg; "
+            f"residual {1e3 * result.document['fit']['static_noise_std']:.1f} mm/s²; not told: {missing or 'none'}"
+        )
+
+
 def recording(folder: Path) -> None:
     """Print one recording's result."""
+    if (folder / "static.csv").is_file():
+        still_poses(folder)
+        return
     found = described(folder)
     if found is None:
         print(f"{folder.name}: no arm.yaml with {' or '.join(' + '.join(log) for log in LOGS)}")

@@ -99,7 +99,7 @@ void bind_arm(py::module_& m) {
       .def_readonly("axis", &JointEstimate::axis, "JointAxis at the reference configuration, or None")
       .def_readonly("reason", &JointEstimate::reason)
       .def_readonly("vague", &JointEstimate::vague,
-                    "JointAxis too vague to be given, its direction known to 0.1 rad at least (whole-arm), or None")
+                    "JointAxis too vague to be given, its direction known to 50 mrad at least (whole-arm), or None")
       .def_readonly("fit", &JointEstimate::fit, "index into JointCalibration.fits, -1 without one");
   py::class_<JointCalibration>(m, "JointCalibration", "Every joint's axis at one reference configuration.")
       .def_readonly("reference_configuration", &JointCalibration::reference_configuration, "(n,) rad or m")

@@ -123,6 +123,7 @@ void bind_recording_type(py::module_& m) {
       .def_readonly("timeline", &Recording::timeline, "what was found in the stamps (two clocks: the sensor's)")
       .def_readonly("joint_timeline", &Recording::joint_timeline,
           "the joints' own stamps where they had a clock, or None")
+      .def_property_readonly("is_static", &Recording::is_static, "whether every row is the mean of a rest, from make_static_recording()")
       .def_property_readonly("samples", &Recording::samples)
       .def_property_readonly("joints", &Recording::joints)
       .def("__repr__", [](const Recording& r) {
@@ -222,6 +223,38 @@ Raises
 ------
 InvalidInput
     As with one log, and where the logs do not overlap under the clock model.)");
+
+  m.def(
+      "make_static_recording",
+      [](const Eigen::Ref<const SamplesX>& joint_positions, const Eigen::Ref<const Samples3>& specific_force,
+         const std::optional<Samples3>& angular_velocity, const std::optional<Eigen::VectorXd>& temperature) {
+        return make_static_recording(joint_positions, sensor_samples(specific_force, angular_velocity, temperature));
+      },
+      py::arg("joint_positions").noconvert(), py::arg("specific_force").noconvert(), py::kw_only(),
+      py::arg("angular_velocity").noconvert() = py::none(), py::arg("temperature").noconvert() = py::none(), release_gil(),
+      R"(A table of still poses, each row the mean of one rest, as a recording.
+
+It shows the directions of revolute axes, not where they are. Every row is a span of its own; ``time`` counts the rows.
+
+Parameters
+----------
+joint_positions : (P, n) float64 array, C order
+    rad, or m for prismatic joints; P >= 3.
+specific_force : (P, 3) float64 array, C order
+    m/s^2, what the sensor read at rest, on average; +g upwards.
+angular_velocity : (P, 3) float64 array, optional
+    rad/s.
+temperature : (P,) float64 array, optional
+    Degrees Celsius.
+
+Returns
+-------
+Recording
+
+Raises
+------
+InvalidInput
+    Sizes differ, there are fewer than 3 poses, or a value is not finite (row, column).)");
 
   m.def("concatenate", &concatenate, py::arg("recordings"), release_gil(), R"(Several recordings of one arm as one.
 

@@ -7,7 +7,7 @@ import enum
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'Experiment', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InstructionSet', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'LineComparison', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorComparison', 'SensorFromGravity', 'SimulatedExperiment', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'TrialConditions', 'TrialOutcome', 'TrialResults', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'available_instruction_sets', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'compare_lines', 'compare_sensor', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_error', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'instruction_set', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_statistics', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'run_trials', 'savgol_filter', 'screw_exp', 'segment', 'sensor_figure_names', 'simulate', 'simulate_experiment', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'use_instruction_set', 'used_tolerance', 'welch']
+__all__: list[str] = ['AccelerometerModel', 'AccelerometerSpecification', 'AcquisitionOptions', 'AxisChart', 'AxisDirectionFit', 'BaseFrame', 'CalibratedAccelerometer', 'CalibrationMethod', 'CenterOfRotation', 'CenterOptions', 'ChainAlignment', 'CircleFit', 'ClockAlignment', 'ClockAlignmentOptions', 'ClockModel', 'CommonNormal', 'DelayTest', 'DhRow', 'DidNotConverge', 'Dwell', 'Error', 'Experiment', 'FrameMotion', 'GravityModel', 'HayatiChain', 'HayatiConversion', 'HayatiRow', 'HeldJoints', 'IndexRange', 'InstructionSet', 'InvalidInput', 'JointAxis', 'JointCalibration', 'JointCalibrationOptions', 'JointEstimate', 'JointModel', 'JointModelFit', 'JointModelPrior', 'JointTest', 'JointTrajectory', 'JointType', 'Line', 'LineComparison', 'ModifiedDhChain', 'ModifiedDhConversion', 'MultiJointMotion', 'NamedParameter', 'NearParallel', 'NoiseBand', 'NotIdentifiable', 'ParameterTreatment', 'PointToPointMove', 'RaisedCosine', 'Recording', 'RegressionStatistics', 'ResponseBand', 'RowForm', 'STANDARD_GRAVITY', 'ScrewAxis', 'ScrewChain', 'SecondOrderResponse', 'Segmentation', 'SegmentationOptions', 'SensorComparison', 'SensorFromGravity', 'SimulatedExperiment', 'SimulationOptions', 'SingleJointMotion', 'StampOrder', 'StampRule', 'StandardDhChain', 'StandardDhConversion', 'StaticDwell', 'StaticIntervalOptions', 'SteppedSweep', 'StretchResidual', 'TemperatureModel', 'TemperatureProfile', 'TestFit', 'TimelineGap', 'TimelineOptions', 'TimelineReport', 'TrialConditions', 'TrialOutcome', 'TrialResults', 'UncorrectedErrors', 'VibrationOptions', 'WeakCombination', 'WholeArmCalibration', 'WholeArmOptions', 'align_chain', 'align_clocks', 'align_lines', 'analyse_timeline', 'available_instruction_sets', 'axis_in_sensor_frame', 'band_noise', 'butter', 'calibrate_joints', 'calibrate_whole_arm', 'center_by_position', 'center_by_velocity', 'common_normal', 'compare_lines', 'compare_sensor', 'concatenate', 'correct', 'cumulative_simpson', 'cumulative_trapezoid', 'derive_seed', 'dh_parameter_jacobian', 'draw_accelerometer', 'draw_calibrated_accelerometer', 'draw_response', 'encoder_step', 'end_point_error', 'end_point_std', 'fit_axis_direction', 'fit_axis_direction_robust', 'fit_circle', 'fit_gravity_model', 'fit_joint_model', 'fit_sensor_from_gravity', 'follow', 'forward_kinematics', 'frame_motion', 'gradient', 'hayati_parameter_jacobian', 'hayati_transform', 'instruction_set', 'interpolate_cubic', 'joint_compliance', 'joint_frame', 'joint_regressors', 'joint_rests', 'joint_statistics', 'joint_trajectory', 'line_from_pluecker', 'local_coordinates', 'local_coordinates_jacobian', 'make_line', 'make_recording', 'make_rigid_transform', 'make_static_recording', 'max_encoder_step', 'measure', 'modified_dh_transform', 'orient_axis', 'output_current', 'paper_acquisition', 'reading_from_current', 'rebase', 'response_section', 'rest_band', 'retract', 'rotation_exp', 'rotation_log', 'run_trials', 'savgol_filter', 'screw_exp', 'segment', 'sensor_figure_names', 'simulate', 'simulate_experiment', 'skew', 'sosfilt', 'sosfilt_zi', 'sosfiltfilt', 'specific_force', 'standard_dh_transform', 'static_intervals', 'static_poses', 'tangent_basis', 'to_hayati', 'to_modified_dh', 'to_screws', 'to_standard_dh', 'transform', 'use_instruction_set', 'used_tolerance', 'welch']
 class Error(Exception):
     """
     Base of every error circlepoint raises on purpose.
@@ -1066,6 +1066,11 @@ class Recording:
         (N, 3) rad/s, or None
         """
     @property
+    def is_static(self) -> bool:
+        """
+        whether every row is the mean of a rest, from make_static_recording()
+        """
+    @property
     def joint_positions(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
         (N, n) rad or m, read-only view
@@ -2102,7 +2107,7 @@ class JointEstimate:
     @property
     def vague(self) -> JointAxis | None:
         """
-        JointAxis too vague to be given, its direction known to 0.1 rad at least (whole-arm), or None
+        JointAxis too vague to be given, its direction known to 50 mrad at least (whole-arm), or None
         """
 class JointCalibration:
     """
@@ -4663,6 +4668,32 @@ def make_rigid_transform(matrix: typing.Annotated[numpy.typing.ArrayLike, numpy.
     ------
     InvalidInput
         An entry is not finite, the last row is not (0, 0, 0, 1), or R is not a proper rotation.
+    """
+def make_static_recording(joint_positions: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"], specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], *, angular_velocity: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"] | None = None, temperature: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"] | None = None) -> Recording:
+    """
+    A table of still poses, each row the mean of one rest, as a recording.
+
+    It shows the directions of revolute axes, not where they are. Every row is a span of its own; ``time`` counts the rows.
+
+    Parameters
+    ----------
+    joint_positions : (P, n) float64 array, C order
+        rad, or m for prismatic joints; P >= 3.
+    specific_force : (P, 3) float64 array, C order
+        m/s^2, what the sensor read at rest, on average; +g upwards.
+    angular_velocity : (P, 3) float64 array, optional
+        rad/s.
+    temperature : (P,) float64 array, optional
+        Degrees Celsius.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    InvalidInput
+        Sizes differ, there are fewer than 3 poses, or a value is not finite (row, column).
     """
 @typing.overload
 def measure(model: AccelerometerModel, specific_force: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"], angular_velocity: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:

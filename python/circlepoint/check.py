@@ -114,7 +114,7 @@ class LogCheck:
     rest_magnitude, rest_magnitude_std : float or None
         m/s^2; magnitude of the specific force over the rests: mean and standard deviation.
     rest_noise : float or None
-        m/s^2; standard deviation of samples within a rest, the median over rests and channels.
+        m/s^2; standard deviation of samples within a rest, the median over rests and channels; None without samples.
     largest_force : float
         m/s^2; largest absolute reading of a channel.
     gravity : float
@@ -185,7 +185,7 @@ def check_recording(loaded: LoadedRecording, arm: Arm, *, gravity: float = STAND
         rests=len(segmentation.dwells),
         rest_magnitude=magnitude,
         rest_magnitude_std=float(magnitudes.std()) if magnitudes.size else None,
-        rest_noise=float(np.median(noise)) if noise.size else None,
+        rest_noise=float(np.median(noise)) if noise.size and not loaded.recording.is_static else None,
         largest_force=float(np.abs(loaded.recording.specific_force).max()),
         gravity=gravity,
         gravity_motion=turned,

@@ -80,17 +80,22 @@ def assemble(logs: Sequence[Log]) -> Assembly:
         if whole is None and log.one_clock and sensor.one_clock and np.array_equal(log.time, sensor.time):
             whole = replace(sensor, joint_positions=log.joint_positions)
         if whole is not None and whole.joint_positions is not None and whole.specific_force is not None:
-            recording = circlepoint.make_recording(
-                whole.time,
-                whole.joint_positions,
-                whole.specific_force,
-                angular_velocity=whole.angular_velocity,
-                temperature=whole.temperature,
-            )
-            assembly.recordings.append(recording)
+            assembly.recordings.append(_recording(whole, whole.joint_positions, whole.specific_force))
         else:
             _pair(assembly, log, sensor)
     return assembly
+
+
+def _recording(log: Log, joint_positions: FloatArray, specific_force: FloatArray) -> circlepoint.Recording:
+    """Return the recording of a log that holds joints and sensor on one clock, or of still poses."""
+    gyroscope, temperature = log.angular_velocity, log.temperature
+    if log.columns.static:
+        return circlepoint.make_static_recording(
+            joint_positions, specific_force, angular_velocity=gyroscope, temperature=temperature
+        )
+    return circlepoint.make_recording(
+        log.time, joint_positions, specific_force, angular_velocity=gyroscope, temperature=temperature
+    )
 
 
 def _pair(assembly: Assembly, joints: Log, sensor: Log) -> None:

@@ -10,12 +10,13 @@ specific force            ``ax, ay, az``; ``accel_x..``; ``linear_acceleration.x
 angular velocity          ``gx, gy, gz``; ``wx..``; ``gyro_x..``; ``angular_velocity_x..`` (optional)
 temperature               ``temp``, ``temperature`` (optional)
 the sensor's own time     ``t_sensor``, ``imu_time``, ``hwt`` (optional: joints and sensor then have two clocks)
+number of a still pose    ``pose`` (instead of time: every row is then the mean of one rest)
 an arm of modules         ``q1, a1x.., w1x.., hwt1, q2 ..``: a joint, a sensor and a clock each, as HEBI's record them
 ========================  =======================================================================================
 
 Other names and units are given by a column map (``--columns map.yaml``)::
 
-    t: stamp                                   # one name a quantity ...
+    t: stamp                                   # one name a quantity (pose: NAME for a table of still poses) ...
     q: [pan, lift, elbow, w1, w2, w3]          # ... or a list; the same as q1: pan, q2: lift, ...
     a: [imu_0, imu_1, imu_2]                   # the same as ax, ay, az
     g: [rate_0, rate_1, rate_2]                # gyroscope: the same as gx, gy, gz
@@ -42,6 +43,7 @@ from circlepoint.column_names import (
     ACCELERATION_FAMILIES,
     AXES,
     GYROSCOPE_FAMILIES,
+    POSE_NAMES,
     SENSOR_TIME_NAMES,
     TEMPERATURE_NAMES,
     TIME_NAMES,
@@ -125,7 +127,8 @@ class FileColumns:
     """The columns of one file by meaning; None where the file has no such quantity.
 
     `units` are those written into the columns' names, by quantity as in a column map; `notes` say which of several
-    columns were taken, and why; `beyond` are the joints (0-based) that do not move the sensor.
+    columns were taken, and why; `beyond` are the joints (0-based) that do not move the sensor. Where `static`, every
+    row is the mean of one rest, and `time` is the column that numbers these.
     """
 
     time: str
@@ -137,6 +140,7 @@ class FileColumns:
     units: dict[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     beyond: tuple[int, ...] = ()
+    static: bool = False
 
     @property
     def joint_half(self) -> FileColumns:
@@ -184,7 +188,7 @@ def load_column_map(path: str | Path, arm: Arm) -> ColumnMap:
     document = load_yaml(path)
     joints = [f"q{index + 1}" for index in range(len(arm.joints))]
     groups = {"q": joints, "a": [f"a{axis}" for axis in AXES], "g": [f"g{axis}" for axis in AXES]}
-    single = ["t", "t_sensor", "temp", *(name for group in groups.values() for name in group)]
+    single = ["t", "t_sensor", "pose", "temp", *(name for group in groups.values() for name in group)]
     document.only_keys((), document.data, [*single, *groups, "units", *_TOPICS])
     names: dict[str, str] = {}
     for key, value in document.data.items():
@@ -260,6 +264,8 @@ def find_columns(table: LogTable, arm: Arm, column_map: ColumnMap) -> FileColumn
         temperature=search.one("temp", TEMPERATURE_NAMES, "temp"),
         sensor_time=search.one("t_sensor", SENSOR_TIME_NAMES, "t") if joints and all(force) else None,
     )
+    if not columns.time and joints and columns.specific_force and (pose := search.one("pose", POSE_NAMES, "t")):
+        columns = replace(columns, time=pose, sensor_time=None, static=True)
     if not columns.time:
         raise table.error(f"the time column is missing (t, time or timestamp); {_found(table)}")
     if columns.joints is None and columns.specific_force is None:

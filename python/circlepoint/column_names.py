@@ -20,6 +20,7 @@ TIME_NAMES = (
     *("t_joint", "joint_time", "log_time", "t_pc", "pc_time", "t_host", "host_time", "rosbagtimestamp"),
 )
 SENSOR_TIME_NAMES = ("t_sensor", "sensor_t", "sensor_time", "t_imu", "imu_t", "imu_time", "hwt")
+POSE_NAMES = ("pose", "pose_id", "pose_index", "pose_number", "still_pose", "static_pose")
 TEMPERATURE_NAMES = ("temp", "temperature", "sensor_temperature", "imu_temperature")
 
 JOINT_TEMPLATES = (

@@ -135,12 +135,12 @@ def missing_joint_entry(
     )
     entry: Document = {"name": name, "type": joint_type, **line, "reason": reason, "tests": plain(list(tests))}
     if vague is not None:
-        slides = vague.screw.type == JointType.prismatic
+        has_point = vague.screw.type == JointType.revolute and math.isfinite(vague.point_std())
         entry["vague"] = {
             "direction_sensor": plain(vague.screw.line.direction),
             "direction_std": vague.direction_std(),
-            "point_sensor": None if slides else plain(vague.screw.line.point),
-            "point_std": None if slides else vague.point_std(),
+            "point_sensor": plain(vague.screw.line.point) if has_point else None,
+            "point_std": vague.point_std() if has_point else None,
         }
     return entry
 
@@ -173,6 +173,7 @@ def with_reading(document: Mapping[str, Any], loaded: LoadedRecording) -> Docume
             "duration": float(recording.time[-1] - recording.time[0]),
             "sample_rate": float(recording.sample_rate),
             "spans": len(recording.spans),
+            "static": bool(recording.is_static),
         },
         "findings": [*document["findings"], *finding_entries(loaded.findings)],
     }

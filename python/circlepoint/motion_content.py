@@ -54,6 +54,8 @@ class JointMotion:
         s, in motion.
     in_step : tuple of int
         Joints (0-based) it never moves apart from.
+    static : bool
+        Whether still poses are all that was recorded.
     """
 
     travel: float
@@ -61,6 +63,7 @@ class JointMotion:
     acceleration: float
     time: float
     in_step: tuple[int, ...]
+    static: bool = False
 
 
 @dataclass(frozen=True)
@@ -93,6 +96,7 @@ def joint_motions(recording: circlepoint.Recording) -> tuple[JointMotion, ...]:
             acceleration=_largest(changes[:, joint]),
             time=float(np.count_nonzero(np.abs(speeds[:, joint]) > _MOVING) * _BLOCK),
             in_step=tuple(other for other in joints if other != joint and _in_step(speeds[:, [joint, other]])),
+            static=recording.is_static,
         )
         for joint in joints
     )
@@ -148,6 +152,9 @@ def judge_motion(joint: Joint, motion: JointMotion, *, together: bool) -> tuple[
     brisk = f"move it over {f'{degrees} deg' if joint.revolute else f'{1000 * metres:.0f} mm'} or more, 0.5 Hz or so"
     if motion.travel < MIN_TRAVEL:
         return "missing", f"it does not move: {brisk}, alone or with others"
+    if motion.static:
+        shown = "its direction and not its place" if joint.revolute else "nothing of a sliding joint"
+        return "missing", f"still poses show {shown}: {brisk}, alone or with others"
     if motion.travel < SHORT_TRAVEL[joint.type]:
         return "weak", f"it moves little: {brisk}, alone or with others"
     if motion.acceleration < SLOW[joint.type]:

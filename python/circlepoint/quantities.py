@@ -19,7 +19,7 @@ class Quantity:
     Attributes
     ----------
     name : str
-        ``"time"``, ``"joints"``, ``"specific force"``, ``"gyroscope"`` or ``"temperature"``.
+        ``"time"``, ``"still poses"``, ``"joints"``, ``"specific force"``, ``"gyroscope"`` or ``"temperature"``.
     columns : tuple of str
         As they are in the file.
     unit : str
@@ -45,8 +45,11 @@ def quantities(log: Log, arm: Arm) -> tuple[Quantity, ...]:
         The arm whose joints it holds.
     """
     names = log.columns
-    rate = log.timeline.sample_rate
-    found = [_quantity(log, "time", (names.time,), ("t", "s"), f"steps of {1e3 / rate:.4g} ms")]
+    if names.static:
+        found = [Quantity("still poses", (names.time,), "numbers", "there is no time")]
+    else:
+        why = f"steps of {1e3 / log.timeline.sample_rate:.4g} ms"
+        found = [_quantity(log, "time", (names.time,), ("t", "s"), why)]
     if log.joint_positions is not None and names.joints:
         found.append(_joint_quantity(log, arm, names.joints, log.joint_positions))
     if log.specific_force is not None and names.specific_force:

@@ -40,7 +40,8 @@ def write_recording(path: Path, recording: circlepoint.Recording) -> None:
     path : Path
         Ends in ``.csv``, ``.csv.gz`` or ``.parquet``; its folder must exist.
     recording : Recording
-        Written as ``t, q1 .. qn, ax, ay, az`` and, where recorded, ``gx, gy, gz, temp``; SI units.
+        Written as ``t, q1 .. qn, ax, ay, az`` and, where recorded, ``gx, gy, gz, temp``; SI units. Still poses have
+        ``pose``, counted from 0, in place of ``t``.
 
     Raises
     ------
@@ -50,7 +51,7 @@ def write_recording(path: Path, recording: circlepoint.Recording) -> None:
         When the file cannot be written.
     """
     require_format(path)
-    columns = {"t": recording.time}
+    columns = {"pose" if recording.is_static else "t": recording.time}
     columns |= {f"q{index + 1}": recording.joint_positions[:, index] for index in range(recording.joints)}
     columns |= {f"a{axis}": recording.specific_force[:, index] for index, axis in enumerate("xyz")}
     if recording.angular_velocity is not None:

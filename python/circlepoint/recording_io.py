@@ -3,7 +3,8 @@
 A file with joint positions and specific force is a recording. Files with only the one and only the other come from two
 machines with two clocks: offset and rate between them are estimated, and the two become one recording. One file may
 hold two rates: the topics of a bag, a sensor with its own time column, rows of joints between rows of the sensor.
-Several recordings become one, in the order given.
+Several recordings become one, in the order given. A file that numbers its rows as still poses in place of a time is a
+table of rests.
 """
 
 from __future__ import annotations
@@ -56,6 +57,8 @@ FloatArray = NDArray[np.float64]
 
 MIN_SAMPLES = 8
 """Fewer rows have no sample rate."""
+MIN_POSES = 3
+"""Still poses in a table of them."""
 MIN_SHARE = 0.02
 """Part of the rows without joints, and of those without sensor, above which one log holds two rates."""
 
@@ -80,6 +83,8 @@ class LogFile:
         What its columns were taken for.
     beyond : tuple of int
         Joints (0-based) that are known not to move the sensor.
+    static : bool
+        Whether its rows are still poses, each the mean of one rest.
     """
 
     path: Path
@@ -90,6 +95,7 @@ class LogFile:
     timeline: circlepoint.TimelineReport
     quantities: tuple[Quantity, ...]
     beyond: tuple[int, ...] = ()
+    static: bool = False
 
 
 @dataclass(frozen=True)
@@ -105,7 +111,7 @@ class LoadedRecording:
     clock_alignments : tuple of ClockAlignment
         One for each pair of joint and sensor logs on two clocks; empty where one clock stamped both.
     encoder_steps : tuple of (float or None)
-        Smallest step seen of each joint, rad or m; None where it never moved.
+        Smallest step seen of each joint, rad or m; None where it never moved, or only stood in still poses.
     findings : tuple of Finding
         What is suspicious but legal.
     """
@@ -237,7 +243,7 @@ def _read_logs(table: LogTable, names: FileColumns, arm: Arm, column_map: Column
     """Yield the log in a table, or the two of different rates or clocks."""
     data = None if table.long else table.read(names.used)
     halves: list[tuple[LogTable, FileColumns]] = [(table, names)]
-    if names.joints and names.specific_force:
+    if names.joints and names.specific_force and not names.static:
         pieces = table.batches([*names.joints, *names.specific_force]) if data is None else [data]
         if _have_two_rates(pieces, names.joints, names.specific_force):
             halves = [
@@ -306,26 +312,35 @@ def _read_log(
 ) -> Log:
     column_map = replace(column_map, units={**names.units, **column_map.units})
     rows = data[names.time].size
-    if rows < MIN_SAMPLES:
+    if names.static and rows < MIN_POSES:
+        raise table.error(f"has {rows} still poses, at least {MIN_POSES} are needed, better two a joint")
+    if not names.static and rows < MIN_SAMPLES:
         raise table.error(
             f"has {rows} samples, at least {MIN_SAMPLES} are needed (a calibration takes minutes of them)"
         )
     for name in (names.time, *(names.joints or ()), *(names.specific_force or ())):
         require_finite(table, name, data[name])
     source = table.label
-    time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
-    require_order(table, names.time, data[names.time])
-    timeline = table_timeline(table, time)
     findings = [*table.findings, *(Finding("columns", f"{source}: {note}") for note in names.notes)]
-    findings += timeline_findings(timeline, source)
-    findings += time_findings(time, timeline.sample_rate, source, column_map)
+    if names.static:
+        _require_one_row_a_pose(table, names.time, data[names.time])
+        time = np.arange(rows, dtype=float)
+        shown = f"{source}: {rows} still poses show directions of axes and no distances"
+        findings.append(Finding("still-poses", shown))
+    else:
+        time = data[names.time] * TIME_UNITS[column_map.units.get("t", "s")]
+        require_order(table, names.time, data[names.time])
+        timeline = table_timeline(table, time)
+        findings += timeline_findings(timeline, source)
+        findings += time_findings(time, timeline.sample_rate, source, column_map)
     positions = force = None
     if names.joints:
         factors = [column_map.joint_factor(arm, index) for index in range(len(arm.joints))]
         positions = np.column_stack([data[name] * factor for name, factor in zip(names.joints, factors, strict=True)])
         findings += joint_findings(positions, arm, source, column_map)
-        positions, jumps = unwrap_joints(positions, time, arm, source)
-        findings += jumps
+        if not names.static:
+            positions, jumps = unwrap_joints(positions, time, arm, source)
+            findings += jumps
     if names.specific_force:
         force = np.column_stack([data[name] for name in names.specific_force])
         force *= ACCELERATION_UNITS[column_map.units.get("a", "m/s^2")]
@@ -334,7 +349,22 @@ def _read_log(
         )
     gyroscope, temperature, more = _optional_columns(table, names, data, time, column_map)
     findings += more
+    if names.static:
+        assert positions is not None, "a table of still poses holds joints and a sensor"
+        assert force is not None, "a table of still poses holds joints and a sensor"
+        timeline = circlepoint.make_static_recording(positions, force).timeline
     return Log(table, names, time, positions, force, gyroscope, temperature, timeline, findings, dict(column_map.units))
+
+
+def _require_one_row_a_pose(table: LogTable, name: str, numbers: FloatArray) -> None:
+    first: dict[float, int] = {}
+    for row, number in enumerate(numbers.tolist()):
+        if first.setdefault(number, row) != row:
+            raise table.error(
+                f"column `{name}` is {number:.12g} again: keep one row a pose, the mean of what the one sensor on the "
+                f"end-point read at rest",
+                row,
+            )
 
 
 def _optional_columns(
@@ -375,8 +405,9 @@ def _optional_columns(
 
 def _encoder_steps(logs: Sequence[Log], joints: int) -> tuple[float | None, ...]:
     steps: list[float | None] = []
+    moving = [log.joint_positions for log in logs if log.joint_positions is not None and not log.columns.static]
     for index in range(joints):
-        seen = [encoder_step(log.joint_positions[:, index]) for log in logs if log.joint_positions is not None]
+        seen = [encoder_step(positions[:, index]) for positions in moving]
         steps.append(min((step for step in seen if step is not None), default=None))
     return tuple(steps)
 
@@ -391,4 +422,5 @@ def _describe(log: Log, arm: Arm) -> LogFile:
         timeline=log.timeline,
         quantities=quantities(log, arm),
         beyond=log.columns.beyond,
+        static=log.columns.static,
     )

@@ -124,15 +124,17 @@ def _identifiability_entry(document: Mapping[str, Any], estimate: circlepoint.Wh
 def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
     moving = [stretch for stretch in estimate.stretches if stretch.name != "dwells"]
     samples = sum(stretch.samples for stretch in moving)
-    rms = math.sqrt(sum(stretch.samples * stretch.residual_rms**2 for stretch in moving) / samples)
+    squares = sum(stretch.samples * stretch.residual_rms**2 for stretch in moving)
+    in_motion = math.sqrt(squares / samples) if moving else None
+    at_rest = next((stretch.residual_rms for stretch in estimate.stretches if stretch.name == "dwells"), None)
     return {
         "samples": estimate.samples,
         "rows": estimate.rows,
         "outliers": estimate.outliers,
         "cutoff": estimate.cutoff,
-        "noise_std": rms,
-        "static_noise_std": next((s.residual_rms for s in estimate.stretches if s.name == "dwells"), None),
-        "residual_rms": rms,
+        "noise_std": in_motion,
+        "static_noise_std": at_rest,
+        "residual_rms": in_motion if moving else at_rest,
         "normalised_residual_rms": estimate.normalized_rms,
         "noise_inflation": estimate.noise_inflation,
         "iterations": estimate.iterations,

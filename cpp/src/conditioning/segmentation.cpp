@@ -39,12 +39,18 @@ StaticDwell describe(const Recording& recording, IndexRange samples) {
 
 Segmentation segment(const Recording& recording, const SegmentationOptions& options) {
   check(options);
-  const auto rests = joint_rests(recording, options);
   Segmentation segmentation;
-  for (const IndexRange& interval : static_intervals(recording, rests, options)) {
-    segmentation.dwells.push_back(describe(recording, interval));
+  if (recording.is_static()) {
+    for (const IndexRange& pose : recording.spans) {
+      segmentation.dwells.push_back(describe(recording, pose));
+    }
+  } else {
+    const auto rests = joint_rests(recording, options);
+    for (const IndexRange& interval : static_intervals(recording, rests, options)) {
+      segmentation.dwells.push_back(describe(recording, interval));
+    }
+    segmentation.motions = single_joint_motions(recording, rests, options);
   }
-  segmentation.motions = single_joint_motions(recording, rests, options);
   segmentation.tests = joint_tests(segmentation.dwells, segmentation.motions, recording.joints(), options);
   return segmentation;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "circlepoint/core/error.hpp"
@@ -11,6 +12,9 @@ namespace circlepoint {
 namespace {
 
 double principal_std(const Eigen::Matrix2d& covariance) {
+  if (!covariance.allFinite()) {
+    return std::numeric_limits<double>::infinity();
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }

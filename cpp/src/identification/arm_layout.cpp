@@ -43,7 +43,8 @@ void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>
   group(layout.scale, options.scale, sensor.scale_std, zero);
   group(layout.misalignment, options.misalignment, sensor.misalignment_std, zero);
   const ParameterTreatment percussion = settle(options.percussion_distance, sensor.percussion_distance_std);
-  if (percussion.estimated) {
+  const bool motion = !problem.rows.stretches.empty();  // which alone shows what follows but the nonlinearity
+  if (percussion.estimated && motion) {
     layout.percussion_distance = layout.claim(3);
     if (std::isfinite(percussion.std)) {
       const double spread = std::min(percussion.std, channel_spread_std);
@@ -55,7 +56,9 @@ void lay_out(ArmProblem& problem, const ArmState& state, const std::vector<bool>
     }
   }
   group(layout.second_order, options.second_order, sensor.second_order_std, zero);
-  group(layout.clock_offset, options.clock_offset, 0.0, Eigen::VectorXd::Zero(1));
+  if (motion) {
+    group(layout.clock_offset, options.clock_offset, 0.0, Eigen::VectorXd::Zero(1));
+  }
   if (layout.clock_offset >= 0) {
     group(layout.clock_rate, options.clock_rate, 0.0, Eigen::VectorXd::Ones(1));
   }

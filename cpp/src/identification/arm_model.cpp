@@ -189,7 +189,7 @@ Eigen::Vector3d ArmPredictor::reading(const JointInstant& instant, Eigen::Ref<Ei
       continue;
     }
     const Eigen::Matrix<double, 3, 4> by_line = (by_twist_[i] - by_twist_[i + 1]) * line_twists_[i];
-    const Index count = line_columns(state_.axes[i]);
+    const Index count = layout_.line_columns(state_.axes[i]);
     jacobian.middleCols(column, count) = by_line.leftCols(count);
   }
   if (layout_.up_gravity >= 0) {

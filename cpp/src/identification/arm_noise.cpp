@@ -94,7 +94,8 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
   }
   include_encoders(noise, rows, encoders);
   // The excess that makes the dwells' normalised squares average one, by bisection.
-  noise.dwell_excess = Eigen::VectorXd::Zero(rows.channels);
+  constexpr double least = 1e-6;  // m/s^2 or rad/s: a dwell without any scatter still has a weight
+  noise.dwell_excess = Eigen::VectorXd::Constant(rows.channels, least);
   const double dof = static_cast<double>(dwells.rows()) * std::max(0.2, 1.0 - parameters / std::max(1.0, total));
   for (Index triad = 0; triad < rows.channels / 3 && dwells.rows() > 0; ++triad) {
     const auto excess_squares = [&](double variance) {
@@ -108,7 +109,7 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
         const double middle = 0.5 * (low + high);
         (excess_squares(middle) > 0.0 ? low : high) = middle;
       }
-      noise.dwell_excess.segment<3>(3 * triad).setConstant(std::sqrt(high));
+      noise.dwell_excess.segment<3>(3 * triad).setConstant(std::max(least, std::sqrt(high)));
     }
   }
   return noise;

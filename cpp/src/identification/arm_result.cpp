@@ -4,19 +4,25 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace circlepoint {
 namespace {
 
-constexpr double vague_direction = 0.02;  // rad, and
-constexpr double vague_point = 0.02;      // m: a line less certain than this is not given
-constexpr double unknown_direction = 0.1; // rad: a linearised covariance that reaches farther means nothing
+constexpr double vague_direction = 0.02;    // rad, and
+constexpr double vague_point = 0.02;        // m: a line less certain than this is not given
+constexpr double vague_gravity = 0.005;     // rad its direction may stay open
+constexpr double unknown_direction = 0.05;  // rad: beyond, a linearised covariance means little
+constexpr double told_apart = 4.0;          // standard deviations
 
 // Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
 // rests on the prior alone, or where it spans more than the linearisation.
-std::string why_vague(const JointAxis& axis, bool gravity_seen) {
+std::string why_vague(const JointAxis& axis, double gravity_std) {
   const bool slides = axis.screw.type == JointType::prismatic;
-  if (!gravity_seen && !slides) {
+  if (!std::isfinite(axis.point_std())) {
+    return "rests alone show directions and no distances; move it, such as 0.5 Hz over 150 degrees for 6 s";
+  }
+  if (gravity_std > vague_gravity && !slides) {
     return "gravity hardly turns in the sensor's frame in this recording, or about one axis only, so its direction cannot be told from the "
            "sensor's bias; hold still at six or more orientations of the sensor well apart, 1 s each, or name the sensor if its data sheet "
            "is known";
@@ -37,7 +43,7 @@ std::string why_vague(const JointAxis& axis, bool gravity_seen) {
 }  // namespace
 
 void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmState& state, const Eigen::MatrixXd& covariance,
-                 bool gravity_seen) {
+                 const Seen& seen) {
   const auto joints = static_cast<Index>(state.axes.size());
   estimate.covariance = Eigen::MatrixXd::Zero(4 * joints, 4 * joints);
   for (Index i = 0; i < joints; ++i) {
@@ -50,20 +56,34 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
       if (mine.reason.empty()) {
         mine.reason = "it hardly moves in this recording; move it, alone or with others";
       }
+      if (!layout.points && state.axes[at].type == JointType::prismatic) {
+        mine.reason = "rests show nothing of a joint that slides; move it, such as 0.5 Hz over 0.3 m for 6 s";
+      }
       continue;
     }
-    const Index count = line_columns(state.axes[at]);
+    const Index count = layout.line_columns(state.axes[at]);
     for (Index k = 0; k < joints; ++k) {
       const Index other = layout.lines[static_cast<std::size_t>(k)];
       if (other >= 0) {
-        const Index other_count = line_columns(state.axes[static_cast<std::size_t>(k)]);
+        const Index other_count = layout.line_columns(state.axes[static_cast<std::size_t>(k)]);
         estimate.covariance.block(4 * i, 4 * k, count, other_count) = covariance.block(column, other, count, other_count);
       }
     }
     mine.axis = JointAxis{state.axes[at], estimate.covariance.block<4, 4>(4 * i, 4 * i)};
-    mine.reason = why_vague(*mine.axis, gravity_seen);
+    if (!layout.points) {
+      mine.axis->covariance.diagonal().tail<2>().setConstant(std::numeric_limits<double>::infinity());
+    }
+    mine.reason = why_vague(*mine.axis, seen.gravity_std);
     if (!mine.reason.empty()) {
-      if (gravity_seen && mine.axis->direction_std() < unknown_direction) {
+      if (seen.gravity_std > vague_gravity && !seen.sensor_is_known) {  // what is supposed of the sensor would tell most of it
+        mine.axis->covariance.topLeftCorner(count, count) = seen.data_std.segment(column, count).cwiseAbs2().asDiagonal();
+      }
+      const double direction_std = mine.axis->direction_std();
+      const double off_gravity = std::asin(std::min(1.0, state.up_gravity.normalized().cross(state.axes[at].line.direction).norm()));
+      if (!layout.points && off_gravity < told_apart * direction_std && direction_std < unknown_direction) {
+        mine.reason = "its axis is along gravity, and rests show neither which way it turns nor where it is; move it, such as 0.5 Hz "
+                      "over 150 degrees for 6 s";
+      } else if (seen.gravity_std < unknown_direction && direction_std < unknown_direction) {
         mine.vague = mine.axis;
       }
       mine.axis.reset();

@@ -6,9 +6,16 @@
 
 namespace circlepoint {
 
+// How far the covariance of the lines may be believed.
+struct Seen {
+  double gravity_std = 0.0;      // rad, of its direction, by the data alone where the sensor is not known
+  bool sensor_is_known = true;
+  Eigen::VectorXd data_std;      // of all columns, by the data alone
+};
+
 // Lines with their covariance; those too vague to mean anything are given as reasons instead.
 void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmState& state, const Eigen::MatrixXd& covariance,
-                 bool gravity_seen);
+                 const Seen& seen);
 
 // Up-gravity and the sensor's own errors with their covariances.
 void write_sensor(JointCalibration& estimate, const ArmLayout& layout, const ArmState& state, const Eigen::MatrixXd& covariance);

@@ -69,6 +69,7 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
   small.noise = white_noise(small.rows, 0.3, 0.3, 0.03);
   small.offsets = Eigen::VectorXd::Zero(small.rows.offset_covariance.rows());
   small.threads = problem.threads;
+  small.layout.points = problem.layout.points;
   small.layout.claim_lines(known_state.axes, moves);
   small.layout.up_gravity = small.layout.claim(3);
 

@@ -29,7 +29,7 @@ ArmState moved(const ArmState& state, const ArmLayout& layout, const Eigen::Ref<
   for (std::size_t i = 0; i < state.axes.size(); ++i) {
     if (layout.lines[i] >= 0) {
       Eigen::Vector4d local = Eigen::Vector4d::Zero();
-      local.head(line_columns(state.axes[i])) = step.segment(layout.lines[i], line_columns(state.axes[i]));
+      local.head(layout.line_columns(state.axes[i])) = step.segment(layout.lines[i], layout.line_columns(state.axes[i]));
       next.axes[i].line = retract(state.axes[i].line, local);
     }
   }
@@ -72,7 +72,7 @@ std::vector<std::string> parameter_names(const ArmState& state, const ArmLayout&
   std::vector<std::string> names(static_cast<std::size_t>(layout.columns));
   const auto put = [&](Index column, const std::string& name) { names[static_cast<std::size_t>(column)] = name; };
   for (std::size_t i = 0; i < state.axes.size(); ++i) {
-    const auto count = static_cast<int>(line_columns(state.axes[i]));
+    const auto count = static_cast<int>(layout.line_columns(state.axes[i]));
     for (int k = 0; layout.lines[i] >= 0 && k < count; ++k) {
       put(layout.lines[i] + k, "joint" + std::to_string(i + 1) + "." + line_coordinates[static_cast<std::size_t>(k)]);
     }

@@ -29,7 +29,8 @@ struct ArmState {
 
 // Columns of the parameter vector: each group begins at its column, or at -1 when it is fixed.
 struct ArmLayout {
-  std::vector<Index> lines;  // (n) first column of each joint's line: 4 revolute, 2 prismatic; -1: the joint never moves
+  std::vector<Index> lines;  // (n) first column of each joint's line; -1: the joint never moves
+  bool points = true;        // lines have points; false: nothing but rests was recorded, which show directions only
   Index up_gravity = -1;
   Index bias = -1;
   Index scale = -1;
@@ -49,10 +50,9 @@ struct ArmLayout {
   Index claim(Index count);
   // A line's columns for every joint that moves, and none yet for any encoder.
   void claim_lines(const std::vector<ScrewAxis>& axes, const std::vector<bool>& moves);
+  // How many parameters a line has: a prismatic joint's has a direction only.
+  [[nodiscard]] Index line_columns(const ScrewAxis& axis) const { return points && axis.type == JointType::revolute ? 4 : 2; }
 };
-
-// How many parameters a line has: a prismatic joint's has a direction only.
-inline Index line_columns(const ScrewAxis& axis) { return axis.type == JointType::revolute ? 4 : 2; }
 
 // Calls visit(column, values) for every group but the lines, estimated or not: `values` maps the state's own memory, in the
 // order of the group's columns.

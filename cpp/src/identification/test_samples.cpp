@@ -70,7 +70,8 @@ Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibr
     return options.encoder_resolution;
   }
   Eigen::VectorXd resolution = Eigen::VectorXd::Zero(recording.joints());
-  for (Index joint = 0; joint < recording.joints(); ++joint) {
+  const Index watched = recording.is_static() ? 0 : recording.joints();  // from one still pose to the next a joint makes many steps
+  for (Index joint = 0; joint < watched; ++joint) {
     double smallest = 0.0;
     for (Index i = 1; i < recording.samples(); ++i) {
       const double step = std::abs(recording.joint_positions(i, joint) - recording.joint_positions(i - 1, joint));

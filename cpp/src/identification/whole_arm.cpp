@@ -28,7 +28,7 @@ constexpr int passes_that_cut = 3;        // knocks
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders' and its order found
 constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
-constexpr double vague_gravity = 0.005;   // rad its direction may stay open, by the data alone where the sensor is not known
+constexpr std::size_t fewest_poses = 3;
 constexpr double pinned_gravity = 1e-4;   // m/s^2
 
 // What calibrate_joints does not check.
@@ -91,7 +91,7 @@ double largest_step(const ArmState& before, const ArmState& after, const ArmLayo
   for (std::size_t i = 0; i < before.axes.size(); ++i) {
     if (layout.lines[i] >= 0) {
       const Eigen::Vector4d local = local_coordinates(before.axes[i].line, after.axes[i].line);
-      const Index count = line_columns(before.axes[i]);
+      const Index count = layout.line_columns(before.axes[i]);
       change.segment(layout.lines[i], count) = local.head(count);
     }
   }
@@ -99,22 +99,25 @@ double largest_step(const ArmState& before, const ArmState& after, const ArmLayo
   return change.cwiseAbs().cwiseQuotient(std).maxCoeff();
 }
 
-// By the data alone, or by what is known of the sensor. A magnitude that is estimated and that nothing shows hides no direction.
-bool gravity_direction_seen(const ArmProblem& problem, const ArmState& state, const NormalEquations& data, const Identifiability& seen,
-                            const Eigen::MatrixXd& covariance, bool sensor_is_known) {
+// rad, by the data alone or by what is known of the sensor. A magnitude that is estimated and that nothing shows hides no direction.
+double gravity_direction_std(const ArmProblem& problem, const ArmState& state, const NormalEquations& data, const Identifiability& seen,
+                             const Eigen::MatrixXd& covariance, bool sensor_is_known) {
   const Index at = problem.layout.up_gravity;
   const double magnitude = problem.prior.gravity;
-  const auto settled = [&](const Eigen::Vector3d& std) { return std.maxCoeff() < vague_gravity * magnitude; };
   Eigen::Vector3d data_std = seen.data_std.segment<3>(at);
   if (!problem.prior.gravity_known) {
     NormalEquations with_magnitude = data;
     with_magnitude += linearise_gravity(problem.layout, state, magnitude, pinned_gravity);
     data_std = identifiability(with_magnitude, covariance, state, problem.layout).data_std.segment<3>(at);
   }
-  const Eigen::Vector3d up = state.up_gravity.normalized();
-  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - up * up.transpose();
-  const Eigen::Matrix3d known = across * covariance.block<3, 3>(at, at) * across;
-  return settled(data_std) || (sensor_is_known && settled(known.diagonal().cwiseMax(0.0).cwiseSqrt()));
+  double std = data_std.maxCoeff();
+  if (sensor_is_known) {
+    const Eigen::Vector3d up = state.up_gravity.normalized();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - up * up.transpose();
+    const Eigen::Matrix3d known = across * covariance.block<3, 3>(at, at) * across;
+    std = std::min(std, std::sqrt(std::max(0.0, known.diagonal().maxCoeff())));
+  }
+  return std / magnitude;
 }
 
 }  // namespace
@@ -144,12 +147,18 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
 
   ArmProblem problem;
   problem.threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  result.gyroscope_used = options.use_gyroscope && recording.angular_velocity.has_value();
+  result.gyroscope_used = options.use_gyroscope && recording.angular_velocity.has_value() && !recording.is_static();
   result.cutoff = options.cutoff > 0.0 ? options.cutoff : choose_common_cutoff(recording, segmentation, resolution);
   problem.rows = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used);
   result.samples = problem.rows.samples;
-  if (problem.rows.stretches.empty()) {
-    throw NotIdentifiable("the recording has no stretch of motion of a few tenths of a second without a gap; record longer motions");
+  problem.layout.points = !problem.rows.stretches.empty();
+  if (!problem.layout.points) {
+    if (problem.rows.dwells.size() < fewest_poses) {
+      throw NotIdentifiable("the recording has no stretch of motion of a few tenths of a second without a gap; record longer motions");
+    }
+    for (std::size_t j = 0; j < moves.size(); ++j) {
+      moves[j] = moves[j] && (options.joint_types.empty() || options.joint_types[j] == JointType::revolute);
+    }
   }
   name_kinds(problem.rows, joints);
 
@@ -250,8 +259,10 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       }
     }
     const ArmNoise before = std::move(problem.noise);
-    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, static_cast<double>(problem.layout.columns),
-                                   inflation, encoder_covariances(problem, state), pass > since ? &before : nullptr,
+    // A few rests have hardly more equations than there are columns, most of which what is known of the sensor settles.
+    const double fitted = problem.layout.points ? static_cast<double>(problem.layout.columns) : (covariance * all.information).trace();
+    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, fitted, inflation,
+                                   encoder_covariances(problem, state), pass > since ? &before : nullptr,
                                    pass > std::max(since + passes_to_settle, cutting + passes_that_cut - 1));
   }
   result.noise_inflation = problem.noise.inflation;
@@ -285,8 +296,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.gyroscope_matrix = state.gyroscope_matrix;
   result.gyroscope_delay = state.gyroscope_delay;
 
-  const bool gravity_seen = gravity_direction_seen(problem, state, all, seen, covariance, options.sensor_is_known);
-  write_lines(result.joints, problem.layout, state, covariance, gravity_seen);
+  const double gravity_std = gravity_direction_std(problem, state, all, seen, covariance, options.sensor_is_known);
+  write_lines(result.joints, problem.layout, state, covariance, {gravity_std, options.sensor_is_known, seen.data_std});
   write_sensor(result.joints, problem.layout, state, covariance);
   result.joints.converged = result.converged;
   result.joints.unseen.clear();

@@ -17,7 +17,7 @@ constexpr double same_rate = 1e-4;           // fitted rates that differ by less
 constexpr double pause_between_files = 1.0;  // s
 
 void require_rows(const char* column, Index rows, Index expected) {
-  require(rows == expected, std::string(column) + " has " + std::to_string(rows) + " rows, time has " +
+  require(rows == expected, std::string(column) + " has " + std::to_string(rows) + " rows in place of " +
                                 std::to_string(expected) + ": every column needs one value a row");
 }
 
@@ -231,6 +231,28 @@ Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
   return recording;
 }
 
+Recording make_static_recording(const Eigen::Ref<const SamplesX>& joint_positions, const SensorSamples& sensor) {
+  constexpr Index fewest = 3;
+  const Index poses = joint_positions.rows();
+  require(poses >= fewest, "there are " + std::to_string(poses) + " still poses, at least " + std::to_string(fewest) + " are needed");
+  validate_joints(poses, joint_positions);
+  validate_sensor(poses, sensor);
+  Recording recording;
+  recording.time = Eigen::VectorXd::LinSpaced(poses, 0.0, static_cast<double>(poses - 1));
+  recording.joint_positions = joint_positions;
+  recording.specific_force = sensor.specific_force;
+  recording.angular_velocity = sensor.angular_velocity;
+  recording.temperature = sensor.temperature;
+  recording.sample_rate = 1.0;
+  for (Index row = 0; row < poses; ++row) {
+    recording.spans.push_back({row, row + 1});
+  }
+  recording.timeline.samples = poses;
+  recording.timeline.sample_rate = recording.sample_rate;
+  recording.timeline.duration = recording.time(poses - 1);
+  return recording;
+}
+
 Recording concatenate(const std::vector<Recording>& recordings) {
   require(!recordings.empty(), "there are no recordings to concatenate");
   Recording joined = recordings.front();
@@ -240,6 +262,9 @@ Recording concatenate(const std::vector<Recording>& recordings) {
     require(given.joints() == joined.joints(), name + " has " + std::to_string(given.joints())
         + " joints, the first has " +
                                                    std::to_string(joined.joints()));
+    require(given.is_static() == joined.is_static(),
+            name + (given.is_static() ? " is a table of still poses, the first is a log" : " is a log, the first is a table of still poses") +
+                ": calibrate them apart");
     const double difference = std::abs(given.sample_rate - joined.sample_rate) / joined.sample_rate;
     require(difference <= rate_tolerance, name + " is sampled at " + std::to_string(given.sample_rate) +
                                               " Hz, the first at " + std::to_string(joined.sample_rate) +

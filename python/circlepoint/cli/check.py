@@ -95,7 +95,9 @@ def format_check(result: LogCheck) -> str:
         for clock in result.loaded.clock_alignments
     ]
     lines.append(
-        f"recording   {recording.samples} samples at {recording.sample_rate:.6g} Hz in {len(recording.spans)} "
+        f"recording   {recording.samples} still poses, {recording.joints} joints"
+        if recording.is_static
+        else f"recording   {recording.samples} samples at {recording.sample_rate:.6g} Hz in {len(recording.spans)} "
         f"span{'s' if len(recording.spans) != 1 else ''}, {recording.joints} joints"
     )
     lines += [_rest_line(result), _range_line(result), _gravity_line(result)]
@@ -131,6 +133,8 @@ def _file_line(file: LogFile) -> str:
     timeline = file.timeline
     part = f" {file.part}," if file.part else ""
     what = "joints, sensor" if file.joints and file.sensor else "joints" if file.joints else "sensor"
+    if file.static:
+        return f"{file.path.name:<11}{part} {what}: {file.samples} still poses"
     missing = sum(gap.missing for gap in timeline.gaps)
     gaps = f"{len(timeline.gaps)} gaps ({missing} samples missing)" if timeline.gaps else "no gaps"
     return (
@@ -175,13 +179,14 @@ def _gravity_line(result: LogCheck) -> str:
 
 
 def _rest_line(result: LogCheck) -> str:
-    if result.rest_magnitude is None or result.rest_magnitude_std is None or result.rest_noise is None:
+    if result.rest_magnitude is None or result.rest_magnitude_std is None:
         return "at rest     the arm never rests: let all joints stand still for 1 s now and then"
     deviation = 100 * (result.rest_magnitude / result.gravity - 1)
+    noise = "" if result.rest_noise is None else f", noise {result.rest_noise:.2g} a sample"
     return (
         f"at rest     {result.rests} rests, |f| = {result.rest_magnitude:.4f} m/s^2 ({deviation:+.2f} % of "
         f"{result.gravity:.5f}), "
-        f"varying by {result.rest_magnitude_std:.2g}, noise {result.rest_noise:.2g} a sample"
+        f"varying by {result.rest_magnitude_std:.2g}{noise}"
     )
 
 
@@ -261,6 +266,7 @@ def _file_document(file: LogFile) -> dict[str, Any]:
         "sensor": file.sensor,
         "duration": timeline.duration,
         "sample_rate": timeline.sample_rate,
+        "static": file.static,
         "jitter_std": timeline.jitter_std,
         "jitter_max": timeline.jitter_max,
         "gaps": gaps,

@@ -33,6 +33,7 @@ def draw_overview(calibration: CalibrationResult) -> Figure:
     log, segments = calibration.recording, calibration.segmentation
     joints: Sequence[Document] = calibration.document["joints"]
     rows = len(joints) + 1
+    dots: dict[str, Any] = {"linestyle": "none", "marker": "o", "markersize": 3.0} if log.is_static else {}
     with figure_style():
         height = 0.86 * len(joints) + 2.6
         figure = Figure(figsize=(_width, height))
@@ -41,29 +42,31 @@ def draw_overview(calibration: CalibrationResult) -> Figure:
         panels = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=ratios, gridspec_kw=frame)[:, 0]
         for index, (panel, joint) in enumerate(zip(panels[:-1], joints, strict=True)):
             scale, unit = position_unit(joint)
-            _shade(panel, calibration, index)
+            if not log.is_static:
+                _shade(panel, calibration, index)
             time, values = broken_line(
                 log.time, scale * log.joint_positions[:, index], log.sample_rate, _overview_buckets
             )
-            panel.plot(time, values, color=palette["ink"][0], linewidth=0.9)
+            panel.plot(time, values, color=palette["ink"][0], linewidth=0.9, **dots)
             panel.set_title(f"{plain(joint['name'])}, {unit}", pad=2.0)
             panel.yaxis.set_major_locator(MaxNLocator(3))
             panel.tick_params(bottom=False)
         for k, colour in enumerate(axis_colours):
             time, values = broken_line(log.time, log.specific_force[:, k], log.sample_rate, _overview_buckets)
-            panels[-1].plot(time, values, color=colour, linewidth=0.7)
+            panels[-1].plot(time, values, color=colour, linewidth=0.7, **dots)
         panels[-1].set_title("specific force, m/s²", pad=2.0)
-        panels[-1].set_xlabel("time, s")
+        panels[-1].set_xlabel("still pose, from 0" if log.is_static else "time, s")
         if len(log.time):
-            panels[-1].set_xlim(float(log.time[0]), float(log.time[-1]))
-        handles: list[Any] = [Line2D([], [], color=palette["ink"][0], label="joint position")]
-        if segments.tests:
+            margin = 0.5 if log.is_static else 0.0
+            panels[-1].set_xlim(float(log.time[0]) - margin, float(log.time[-1]) + margin)
+        handles: list[Any] = [Line2D([], [], color=palette["ink"][0], label="joint position", **dots)]
+        if segments.tests and not log.is_static:
             handles += [
                 Patch(color=palette["dwell"][0], label="dwells of its test"),
                 Patch(color=palette["motion"][0], label="single-joint motion"),
             ]
         handles += [
-            Line2D([], [], color=colour, label=f"sensor {name}")
+            Line2D([], [], color=colour, label=f"sensor {name}", **dots)
             for name, colour in zip("xyz", axis_colours, strict=True)
         ]
         _legend(figure, handles)

@@ -38,7 +38,7 @@ class Range(Protocol):
 
 
 class Log(Protocol):
-    """The recording: time (N,) s, joint positions (N, n) rad or m, specific force (N, 3) m/s^2, rate Hz."""
+    """A log or still poses: time (N,) s, joints (N, n) rad or m, specific force (N, 3) m/s^2, rate Hz."""
 
     @property
     def time(self) -> Array: ...  # noqa: D102
@@ -48,6 +48,8 @@ class Log(Protocol):
     def specific_force(self) -> Array: ...  # noqa: D102
     @property
     def sample_rate(self) -> float: ...  # noqa: D102
+    @property
+    def is_static(self) -> bool: ...  # noqa: D102
 
 
 class Dwell(Protocol):

@@ -165,10 +165,13 @@ def _dh_section(document: Document) -> str:
 def _recording_section(calibration: CalibrationResult, drawings: Drawings) -> str:
     log, segments = calibration.recording, calibration.segmentation
     duration = float(log.time[-1] - log.time[0]) if len(log.time) else 0.0
+    rows = f"{len(log.time):,}".replace(",", "\N{THIN SPACE}")
     text = (
-        f"{len(log.time):,} samples at {log.sample_rate:g} Hz over {duration:.1f} s; "
+        f"{rows} still poses, of each the mean of the readings."
+        if log.is_static
+        else f"{rows} samples at {log.sample_rate:g} Hz over {duration:.1f} s; "
         f"{len(segments.dwells)} dwells and {len(segments.motions)} single-joint motions."
-    ).replace(",", "\N{THIN SPACE}")
+    )
     picture = inline_svg(drawings.overview_svg, "overview", "Joint positions and specific force over the whole log")
     parts = [paragraph(text), f"<figure>{picture}</figure>", tables.test_table(calibration)]
     return section("recording", "What was recorded", parts)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "circlepoint/core/error.hpp"
 
@@ -95,6 +96,34 @@ TEST(Recording, TwoLogsThatDoNotOverlapAreRefused) {
   const Log log = make_log(1000, 100.0);
   EXPECT_THAT([&] { make_recording(log.time, log.positions, log.time, log.sensor, ClockModel{500.0, 1.0}); },
               ThrowsMessage<InvalidInput>(HasSubstr("do not overlap")));
+}
+
+TEST(StaticRecording, EveryPoseIsASpanOfItsOwn) {
+  const Log log = make_log(8, 250.0);
+  const Recording poses = make_static_recording(log.positions, log.sensor);
+  EXPECT_TRUE(poses.is_static());
+  EXPECT_FALSE(make_recording(log.time, log.positions, log.sensor).is_static());
+  EXPECT_EQ(poses.spans, (std::vector<IndexRange>{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {6, 7}, {7, 8}}));
+  EXPECT_EQ(poses.joint_positions, log.positions);
+  EXPECT_EQ(poses.specific_force, log.sensor.specific_force);
+  EXPECT_DOUBLE_EQ(poses.time(7), 7.0);
+}
+
+TEST(StaticRecording, FewPosesAndValuesThatAreNotFiniteAreRefused) {
+  Log log = make_log(3, 250.0);
+  EXPECT_THAT([&] { make_static_recording(log.positions.topRows(2), log.sensor); }, ThrowsMessage<InvalidInput>(HasSubstr("2 still poses")));
+  log.positions(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT([&] { make_static_recording(log.positions, log.sensor); }, ThrowsMessage<InvalidInput>(HasSubstr("row 2")));
+}
+
+TEST(Concatenate, TablesOfStillPosesAreOneAndNeverBesideALog) {
+  const Log log = make_log(10, 250.0);
+  const Recording poses = make_static_recording(log.positions, log.sensor);
+  const Recording both = concatenate({poses, poses});
+  EXPECT_TRUE(both.is_static());
+  EXPECT_EQ(both.samples(), 20);
+  EXPECT_THAT([&] { concatenate({make_recording(log.time, log.positions, log.sensor), poses}); },
+              ThrowsMessage<InvalidInput>(HasSubstr("still poses")));
 }
 
 TEST(Concatenate, EachFileStartsASpanAndRestartedClocksMoveOn) {

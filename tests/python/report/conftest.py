@@ -187,6 +187,7 @@ def make_log(names, rate=100.0):
         joint_positions=joint_positions,
         specific_force=specific_force,
         sample_rate=rate,
+        is_static=False,
     )
     return recording, SimpleNamespace(dwells=dwells, motions=motions, tests=tests), fits
 

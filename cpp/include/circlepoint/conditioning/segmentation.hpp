@@ -61,7 +61,8 @@ struct Segmentation {
   std::vector<JointTest> tests;  ///< at most one per joint and configuration, base to tip, largest span first
 };
 
-/// Finds dwells, single-joint motions and the tests they make up. A log without any gives empty lists, not an error.
+/// Finds dwells, single-joint motions and the tests they make up. A log without any gives empty lists, not an error; of still
+/// poses every one is a dwell.
 /// Throws InvalidInput where the recording's parts do not match, values are not finite or options are out of range.
 Segmentation segment(const Recording& recording, const SegmentationOptions& options = {});
 

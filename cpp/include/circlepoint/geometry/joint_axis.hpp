@@ -14,7 +14,7 @@ namespace circlepoint {
 
 struct JointAxis {
   ScrewAxis screw;
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of (d1, d2, p1, p2): rad^2, rad m, m^2
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of (d1, d2, p1, p2): rad^2, rad m, m^2; infinite: nothing is known
 
   /// Standard deviation of the direction, rad (the larger principal one).
   [[nodiscard]] double direction_std() const;

@@ -46,7 +46,7 @@ struct JointCalibrationOptions {
   bool use_resting_encoders = true;      ///< correct for joints that yield
   int max_passes = 12;
   std::vector<JointType> joint_types;    ///< empty: all revolute
-  Eigen::VectorXd encoder_resolution;    ///< (n) rad or m a count; empty: the smallest step seen
+  Eigen::VectorXd encoder_resolution;    ///< (n) rad or m a count; empty: the smallest step seen, none in still poses
   std::optional<Eigen::VectorXd> reference_configuration;  ///< (n) rad or m; absent: the dwell that serves most joints
 };
 
@@ -88,7 +88,7 @@ struct JointEstimate {
   Index joint = 0;
   std::optional<JointAxis> axis;  ///< in the sensor frame at the reference configuration
   std::string reason;             ///< why there is none, and what to record
-  std::optional<JointAxis> vague; ///< whole-arm: what is known of an axis too vague to be given, its direction to 0.1 rad at least
+  std::optional<JointAxis> vague; ///< whole-arm: what is known of an axis too vague to be given, its direction to 50 mrad at least
   Index fit = -1;                 ///< into JointCalibration::fits
 };
 

@@ -6,6 +6,9 @@
 // make_recording() gets raw logs there by the rules of timeline.hpp. Joints and sensor logged by two machines have two
 // clocks, sensor_time = offset + rate * joint_time (clock_alignment.hpp estimates both): the sensor's samples are kept,
 // the joints are interpolated at them, and time is the joint clock's.
+//
+// A table of still poses, each row the mean of one rest, is a recording too: every row is a span of its own, so nothing is
+// said of the motion between, and time only counts the rows.
 
 #include <Eigen/Core>
 #include <optional>
@@ -29,6 +32,8 @@ struct Recording {
 
   [[nodiscard]] Index samples() const { return time.size(); }
   [[nodiscard]] Index joints() const { return joint_positions.cols(); }
+  /// Whether every row is the mean of a rest.
+  [[nodiscard]] bool is_static() const { return samples() > 0 && static_cast<Index>(spans.size()) == samples(); }
 };
 
 /// sensor_time = offset + rate * joint_time.
@@ -57,10 +62,14 @@ Recording make_recording(const Eigen::Ref<const Eigen::VectorXd>& joint_time,
                          const Eigen::Ref<const Eigen::VectorXd>& sensor_time, const SensorSamples& sensor,
                          const ClockModel& clock, const TimelineOptions& options = {});
 
+/// A table of still poses (P, n) with what the sensor read at rest in each. Raises InvalidInput for sizes that differ, fewer
+/// than 3 poses and values that are not finite (row, column, value).
+Recording make_static_recording(const Eigen::Ref<const SamplesX>& joint_positions, const SensorSamples& sensor);
+
 /// Several recordings of the same arm as one: each starts a new span. A recording that does not start after the one
 /// before it is moved to one second after its end, and the timeline's notes say so. Sample rates within 1 % are
 /// brought to the first one's; a gyroscope or temperature is kept where all have it. Raises InvalidInput for other
-/// rates or joints.
+/// rates or joints, and for still poses beside logs.
 Recording concatenate(const std::vector<Recording>& recordings);
 
 }  // namespace circlepoint
