@@ -133,7 +133,7 @@ def motion(case: Case, seed: int) -> cp.JointTrajectory:
     chain = case.arm()
     start = np.array(chain.reference_configuration)
     if case.counts:
-        start += np.random.default_rng(seed).uniform(0.0, 2e-3, len(start))
+        start += np.random.default_rng(seed).uniform(0.0, max(2e-3, 2 * np.pi / case.counts), len(start))
     if case.free:
         pieces = [cp.MultiJointMotion(duration=60.0, amplitude=np.full(len(start), 1.2), seed=7)]
     else:

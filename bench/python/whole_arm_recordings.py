@@ -1,7 +1,7 @@
 """What the whole-arm estimate makes of recordings nobody here made: python bench/python/whole_arm_recordings.py FOLDER.
 
 FOLDER holds one folder a recording: log.csv, or joints.csv and sensor.csv, arm.yaml and, where it is known, truth.json;
-of those in UNDESCRIBED nothing is known but the number of joints.
+of those in UNDESCRIBED only the number of joints is known, and their sensor is also supposed to be of the MEMS class.
 Of still poses of several sensors each sensor is taken for itself, supposed to be of the MEMS class.
 Against a truth: the largest error of an axis and of a line, the end-point's over 200 poses and what was predicted. Else
 the lengths that are not zero nominally, beside the nominal ones, which are not used; and what is not given, and why. At
@@ -135,6 +135,13 @@ def recording(folder: Path) -> None:
             print("  without its gyroscope:")
             alone = cp.make_recording(log.recording.time, log.recording.joint_positions, log.recording.specific_force)
             against_nominal(calibrate(alone, arm), arm)
+        if folder.name in UNDESCRIBED:
+            print("  supposing its sensor is of the class mems:")
+            supposed = calibrate(log.recording, arm, sensor=load_sensor("mems"))
+            against_nominal(supposed, arm)
+            fit = supposed.document["fit"]
+            at_rest = 1e3 * (fit["static_noise_std"] or np.nan)
+            print(f"  residual {1e3 * fit['noise_std']:.0f} mm/s² in motion, {at_rest:.0f} at rest")
     except cp.Error as error:
         print(f"  {error}")
 

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from whole_arm_support import LINES, START, UP, chain_of
 
 import circlepoint as cp
 from circlepoint.arm import load_arm
@@ -24,9 +25,10 @@ def load(folder):
     return log, cp.ScrewChain(axes, np.array(truth["reference_configuration"]))
 
 
-def requantised(log, counts):
+def requantised(log, counts, zero=0.0):
+    """Return the log as encoders of so many counts would read it, whose zeros lie at these parts (n) of a count."""
     count = 2 * np.pi / counts
-    positions = np.round(np.array(log.joint_positions) / count) * count
+    positions = (np.round(np.array(log.joint_positions) / count + zero) - zero) * count
     return cp.make_recording(np.array(log.time), positions, np.array(log.specific_force))
 
 
@@ -34,11 +36,12 @@ def estimate(log, truth, counts):
     options = cp.WholeArmOptions()
     options.sensor = load_sensor("qa700")
     options.encoder_resolution = np.full(log.joint_positions.shape[1], 2 * np.pi / counts)
-    joints = cp.calibrate_whole_arm(log, cp.segment(log), options).joints
+    result = cp.calibrate_whole_arm(log, cp.segment(log), options)
+    joints = result.joints
     there = cp.rebase(truth, joints.reference_configuration)
     pairs = zip(joints.chain().axes, there.axes, strict=True)
     error = np.concatenate([cp.local_coordinates(a.line, b.line) for a, b in pairs])
-    return error, joints.covariance
+    return error, joints.covariance, result
 
 
 @pytest.mark.parametrize(
@@ -52,6 +55,44 @@ def estimate(log, truth, counts):
 )
 def test_errors_are_as_large_as_the_covariance_says_and_below_half_a_count(shared_data, folder, counts):
     log, truth = load(shared_data / folder)
-    error, covariance = estimate(requantised(log, counts), truth, counts)
+    error, covariance, _ = estimate(requantised(log, counts), truth, counts)
     assert error @ np.linalg.solve(covariance, error) / error.size < 2.5
     assert np.abs(error).max() < 0.5 * 2 * np.pi / counts
+
+
+@pytest.mark.parametrize("seed", [5, 37])
+def test_a_joint_whose_counts_never_change_may_yet_yield(shared_data, seed):
+    log, truth = load(shared_data / "physics-arm7-sweeps-qa700")
+    zero = np.random.default_rng(seed).uniform(
+        size=log.joints
+    )  # joint 6 yields by 0.6 counts in test 5, within one count
+    error, covariance, result = estimate(requantised(log, 4096, zero), truth, 4096)
+    assert error @ np.linalg.solve(covariance, error) / error.size < 2.0
+    assert not [p.name for p in result.parameters if "gain" in p.name or "eccentricity" in p.name]
+
+
+@pytest.mark.parametrize("counts", [1024, 2048, 4096])
+def test_moves_of_a_few_dozen_counts_and_steps_of_acceleration_are_neither_knocks_nor_encoder_errors(counts):
+    chain = chain_of(LINES)
+    count = 2 * np.pi / counts
+    squares, end_point, predicted = [], [], []
+    for seed in range(4):
+        start = START + np.random.default_rng(seed).uniform(0.0, count, 3)
+        pieces = []
+        for joint in range(3):
+            pieces.append(cp.SteppedSweep(joint=joint, steps=16, span=np.radians(150), dwell=0.8, move=0.6))
+            pieces.append(cp.RaisedCosine(joint=joint, span=np.radians(150), frequency=0.5, duration=4.0))
+        motion = cp.joint_trajectory(start, pieces, 500.0, 0.6)
+        simulation = cp.SimulationOptions(noise_std=0.01, encoder_counts_per_revolution=np.full(3, counts), seed=seed)
+        log = cp.simulate(chain, UP, cp.draw_accelerometer(load_sensor("qa700"), seed), motion, simulation)
+        error, covariance, result = estimate(log, chain, counts)
+        squares.append(error @ np.linalg.solve(covariance, error) / error.size)
+        assert not [p.name for p in result.parameters if "gain" in p.name or "eccentricity" in p.name]
+        assert result.outliers <= 10
+        poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (50, 3))
+        there = cp.rebase(chain, result.joints.reference_configuration)
+        end_point.append(cp.end_point_error(result.joints.chain(), there, poses))
+        predicted.append(np.sqrt(np.mean(cp.end_point_std(result, poses) ** 2)))
+    assert np.mean(squares) < 2.0
+    assert np.sqrt(np.mean(np.square(end_point))) < 1.5 * np.sqrt(np.mean(np.square(predicted)))
+    assert max(predicted) < 5e-4

@@ -105,7 +105,7 @@ void prepare(TestMotion& motion, const Eigen::VectorXd& home, const ArmRows& row
     const Index lead = std::min(mine.begin - span.samples.begin, static_cast<Index>(lead_in * rows.sample_rate));
     const Index begin = mine.begin - lead - span.samples.begin;
     const Index size = lead + mine.size();
-    const SmoothJoints& joints = span.joints[smoothing_for_motion(span, mine, resolution)];
+    const SmoothJoints& joints = span.joints[smoothing_for_yields(span, mine, moving_joints(span, mine, motion.joint, resolution))];
     const Eigen::VectorXd velocity = joints.derivative(1, motion.joint, begin, size);
     const Eigen::VectorXd acceleration = joints.derivative(2, motion.joint, begin, size);
     motion.phi.push_back(raw_functions(joints.position.col(motion.joint).segment(begin, size).array(), velocity.array(),

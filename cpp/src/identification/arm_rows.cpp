@@ -67,15 +67,19 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
     return;
   }
   const Index motion = single_motion(segmentation, moving);
+  const Index alone = motion >= 0 ? segmentation.motions[static_cast<std::size_t>(motion)].joint : -1;
   const Index pieces = (available + longest - 1) / longest;
   constexpr double finest = 1e-5;      // rad: errors of finer counts are next to nothing
   std::vector<std::size_t> smoothing;  // by joint
   std::vector<Eigen::VectorXd> counts; // by joint, of the whole span; empty: its counts make no error worth telling
+  const std::vector<bool> movers = moving_joints(span, moving, alone, resolution);
+  const std::size_t for_yields = smoothing_for_yields(span, moving, movers);
   for (Index joint = 0; joint < recording.joints(); ++joint) {
-    smoothing.push_back(choose_smoothing(span, moving, joint, resolution));
-    const bool coarse = errors && resolution[joint] > finest && crosses_counts(span, moving, joint, resolution);
-    counts.emplace_back(coarse ? Eigen::VectorXd(span.joints[smoothing.back()].position.col(joint) / resolution[joint])
-                               : Eigen::VectorXd());
+    const bool moves = movers[static_cast<std::size_t>(joint)];
+    smoothing.push_back(moves ? 0 : for_yields);
+    const bool coarse = errors && moves && resolution[joint] > finest;
+    const SamplesX& position = alone >= 0 ? span.sharp.position : span.joints[smoothing.back()].position;
+    counts.emplace_back(coarse ? Eigen::VectorXd(position.col(joint) / resolution[joint]) : Eigen::VectorXd());
   }
   for (Index piece = 0; piece < pieces; ++piece) {
     const Index first = available * piece / pieces;
@@ -85,7 +89,7 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
         static_cast<int>(moving.begin - span.samples.begin + (last - 1) * step));
     MovingStretch stretch;
     if (motion >= 0) {
-      stretch.joint = segmentation.motions[static_cast<std::size_t>(motion)].joint;
+      stretch.joint = alone;
       stretch.test = test_of(segmentation, motion);
     }
     stretch.follows.assign(static_cast<std::size_t>(recording.joints()), false);

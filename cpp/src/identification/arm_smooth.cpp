@@ -14,6 +14,7 @@ namespace {
 constexpr int filter_order = 4;
 constexpr double slowest_cutoff = 1.0;  // Hz
 constexpr double few_counts = 50.0;
+constexpr double finest_resolution = 1e-9;  // rad or m, of encoders taken as exact
 
 // Derivatives are those of the sixth-degree polynomial through seven samples: two-point differences would shrink them by
 // (2 pi f / rate)^2 / 6.
@@ -71,6 +72,10 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
   for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
     result.joints.push_back({mine, rate, low_passed(position, mine, rate)});
   }
+  if (coarse) {
+    const double sharper = std::min(1.6 * cutoff, 0.4 * rate);
+    result.sharp = {sharper, rate, low_passed(position, sharper, rate)};
+  }
   SamplesX reading(span.size(), gyroscope ? 6 : 3);
   reading.leftCols(3) = recording.specific_force.middleRows(span.begin, span.size());
   if (gyroscope) {
@@ -98,12 +103,37 @@ double range(const SmoothSpan& span, const IndexRange& moving, Index joint) {
 
 }  // namespace
 
-bool crosses_counts(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
-  return range(span, moving, joint) > few_counts * resolution[joint];
+std::vector<bool> moving_joints(const SmoothSpan& span, const IndexRange& moving, Index alone, const Eigen::VectorXd& resolution) {
+  Eigen::ArrayXd counts(resolution.size());
+  for (Index joint = 0; joint < resolution.size(); ++joint) {
+    counts[joint] = range(span, moving, joint) / std::max(resolution[joint], finest_resolution);
+  }
+  const double enough = std::min(few_counts, 0.5 * counts.maxCoeff());
+  std::vector<bool> movers;
+  for (Index joint = 0; joint < resolution.size(); ++joint) {
+    movers.push_back(joint == alone || (alone < 0 && counts[joint] > enough) || counts[joint] > few_counts);
+  }
+  return movers;
 }
 
-std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution) {
-  return crosses_counts(span, moving, joint, resolution) ? 0 : smoothing_for_motion(span, moving, resolution);
+std::size_t smoothing_for_yields(const SmoothSpan& span, const IndexRange& moving, const std::vector<bool>& movers) {
+  if (span.joints.size() == 1) {
+    return 0;
+  }
+  double frequency = 0.0;
+  for (std::size_t j = 0; j < movers.size(); ++j) {
+    const auto joint = static_cast<Index>(j);
+    const double travel = range(span, moving, joint);
+    if (movers[j] && travel > 0.0) {
+      const Eigen::VectorXd velocity = span.joints.front().derivative(1, joint, moving.begin - span.samples.begin, moving.size());
+      frequency = std::max(frequency, velocity.cwiseAbs().maxCoeff() / (std::numbers::pi * travel));
+    }
+  }
+  std::size_t chosen = 0;
+  while (chosen + 1 < span.joints.size() && span.joints[chosen + 1].cutoff > 4.0 * frequency) {
+    ++chosen;
+  }
+  return chosen;
 }
 
 namespace {
@@ -143,10 +173,28 @@ Mask runs(const Mask& mask, Index shortest) {
 std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const std::vector<MovingAlone>& alone,
                                       const Eigen::VectorXd& resolution, double rate) {
   constexpr double beyond = 3.0;      // eq. (11) inside reaches 1, a minimum-jerk move 2.3, a step of acceleration 5 and more
+  constexpr double unlikely = 4.0;    // standard deviations of the counts' noise
+  constexpr double likely = 2.0;      // where a motion may begin from rest, with a step
   constexpr double too_many = 0.2;    // share of a range that is then a motion of its own kind, not steps
   const SmoothJoints& joints = span.joints.front();
+  const bool coarse = are_coarse(resolution);
+  const SmoothJoints& sharp = coarse ? span.sharp : joints;
   const Index begin = moving.begin - span.samples.begin;
-  Mask step = Mask::Constant(moving.size(), false);
+  const auto reach = static_cast<Index>(std::lround((coarse ? 1.6 : 0.5) * rate / joints.cutoff));
+  // Motion may begin with a step before the range does, which rings on where the cut-off is low.
+  const Index before = coarse ? reach : 0;
+  const IndexRange seen{std::max<Index>(0, begin - before), std::min(span.samples.size(), begin + moving.size() + before)};
+  Mask step = Mask::Constant(seen.size(), false);
+  // Jerk by a count: white noise, thrice differentiated and cut there, has the std. Where a motion may begin from rest a step is no
+  // surprise.
+  Eigen::ArrayXd of_counts = Eigen::ArrayXd::Zero(seen.size());
+  if (coarse) {
+    const double pass = 2.0 * std::numbers::pi * sharp.cutoff;
+    const double std = std::sqrt(2.0 * sharp.cutoff / (12.0 * 7.0 * rate)) * pass * pass * pass;
+    of_counts.setConstant(unlikely * std);
+    of_counts.head(std::min(seen.size(), begin - seen.begin + reach)).setConstant(likely * std);
+    of_counts.tail(std::min(seen.size(), seen.end - begin - moving.size() + reach)).setConstant(likely * std);
+  }
   for (Index j = 0; j < resolution.size(); ++j) {
     const double travel = range(span, moving, j);
     if (travel <= few_counts * resolution[j] || travel <= 0.0) {
@@ -154,12 +202,11 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     }
     const double fastest = joints.derivative(1, j, begin, moving.size()).cwiseAbs().maxCoeff();
     const double own = std::pow(2.0 * fastest / travel, 2) * fastest;
-    step = step || joints.derivative(3, j, begin, moving.size()).array().abs() > beyond * own;
+    step = step || sharp.derivative(3, j, seen.begin, seen.size()).array().abs() > beyond * own + resolution[j] * of_counts;
   }
-  const bool coarse = are_coarse(resolution);
   Mask left_out = Mask::Constant(moving.size(), false);
   if (static_cast<double>(step.count()) <= too_many * static_cast<double>(moving.size())) {
-    left_out = widened(step, static_cast<Index>(std::lround((coarse ? 0.9 : 0.5) * rate / joints.cutoff)));
+    left_out = widened(step, reach).segment(begin - seen.begin, moving.size());
   }
   if (coarse) {
     // Where a joint dwells on each count for longer than a few of what the filter averages over, its error is one number, not noise.
@@ -184,25 +231,6 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     }
   }
   return parts;
-}
-
-std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution) {
-  if (span.joints.size() == 1) {
-    return 0;
-  }
-  double frequency = 0.0;
-  for (Index j = 0; j < resolution.size(); ++j) {
-    const double travel = range(span, moving, j);
-    if (travel > few_counts * resolution[j]) {
-      const Eigen::VectorXd velocity = span.joints.front().derivative(1, j, moving.begin - span.samples.begin, moving.size());
-      frequency = std::max(frequency, velocity.cwiseAbs().maxCoeff() / (std::numbers::pi * travel));
-    }
-  }
-  std::size_t chosen = 0;
-  while (chosen + 1 < span.joints.size() && span.joints[chosen + 1].cutoff > 4.0 * frequency) {
-    ++chosen;
-  }
-  return chosen;
 }
 
 }  // namespace circlepoint

@@ -30,6 +30,7 @@ struct SmoothJoints {
 struct SmoothSpan {
   IndexRange samples;
   std::vector<SmoothJoints> joints;  // by falling cut-off, the common one first
+  SmoothJoints sharp;                // with coarse encoders: a higher one, to see steps and where within its counts a joint is
   SamplesX reading;
   Index usable_begin = 0;  // first and last samples not spoilt by the span's ends, in the recording's indices
   Index usable_end = 0;
@@ -39,12 +40,13 @@ struct SmoothSpan {
 // that begins or ends in motion loses a filter length.
 SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cutoff, bool coarse, bool gyroscope);
 
+// Which joints move on their own account: the one that moves alone (-1: none does), those that move by many counts, and, where none
+// does, those that move most.
+std::vector<bool> moving_joints(const SmoothSpan& span, const IndexRange& moving, Index alone, const Eigen::VectorXd& resolution);
+
 // A joint that only yields shows as a staircase of few counts, and its steps differentiated twice are worse than nothing: what it
 // really does follows the joints that do move, at a few times their frequency. Chooses the smoothing that passes that and no more.
-std::size_t choose_smoothing(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
-
-// Whether a joint moves by so many counts that each sample errs on its own.
-bool crosses_counts(const SmoothSpan& span, const IndexRange& moving, Index joint, const Eigen::VectorXd& resolution);
+std::size_t smoothing_for_yields(const SmoothSpan& span, const IndexRange& moving, const std::vector<bool>& movers);
 
 struct MovingAlone {
   IndexRange samples;
@@ -57,8 +59,5 @@ struct MovingAlone {
 // encoder's counts, as it does beside every rest; `alone`: which one moves where, in order.
 std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& moving, const std::vector<MovingAlone>& alone,
                                       const Eigen::VectorXd& resolution, double rate);
-
-// The smoothing that passes the moving joints' motion, a few times its frequency, and no more.
-std::size_t smoothing_for_motion(const SmoothSpan& span, const IndexRange& moving, const Eigen::VectorXd& resolution);
 
 }  // namespace circlepoint

@@ -10,7 +10,8 @@ namespace circlepoint {
 namespace {
 
 constexpr double free_load = 1e3;         // prior of the loads: anything
-constexpr double free_compliance = 10.0;  // of that of the joint that shows its own best
+constexpr double free_compliance = 2.0;   // its logarithm, relative to the joint that shows its own best
+constexpr double largest_logarithm = 20.0;
 constexpr double free_home = 1e2;         // counts
 constexpr double free_lag = 0.1;          // s
 constexpr double unmodelled = 1e4;        // counts, of a pair the model does not describe
@@ -51,12 +52,9 @@ LoadModel::LoadModel(const std::vector<RestingFit>& fits, const ArmAtHome& arm)
   }
 }
 
-// theta: loads of every outer joint, compliances, homes, time constants. Compliances begin at one, all else at zero.
-Eigen::VectorXd LoadModel::start() const {
-  Eigen::VectorXd theta = Eigen::VectorXd::Zero(parameters());
-  theta.segment(compliance_at(0), joints_).setOnes();
-  return theta;
-}
+// theta: loads of every outer joint, logarithms of compliances (none is negative, and where the counts show next to nothing of a joint
+// its compliance stays as large as they allow, not zero), homes, time constants.
+Eigen::VectorXd LoadModel::start() const { return Eigen::VectorXd::Zero(parameters()); }
 
 // Inverse variances about the start.
 Eigen::VectorXd LoadModel::prior() const {
@@ -76,7 +74,7 @@ Eigen::VectorXd LoadModel::evaluate(std::size_t fit, const Eigen::VectorXd& thet
   jacobian = Eigen::MatrixXd::Zero(value.size(), parameters());
   value[0] = theta[home_at(mine.joint)];
   jacobian(0, home_at(mine.joint)) = 1.0;
-  const double compliance = theta[compliance_at(mine.joint)];
+  const double compliance = std::exp(std::clamp(theta[compliance_at(mine.joint)], -largest_logarithm, largest_logarithm));
   const double late = theta[lag_at(mine.joint)];
   for (std::size_t k = 0; k < mine.moving.size(); ++k) {
     if (loads_[fit][k].size() == 0) {
@@ -96,7 +94,7 @@ Eigen::VectorXd LoadModel::evaluate(std::size_t fit, const Eigen::VectorXd& thet
     const Index first = mine.fit.first[k];
     value.segment(first, resolve.rows()) = compliance * (resolve * torque);
     jacobian.block(first, load, resolve.rows(), load_parameters) = compliance * (resolve * by_load);
-    jacobian.block(first, compliance_at(mine.joint), resolve.rows(), 1) = resolve * torque;
+    jacobian.block(first, compliance_at(mine.joint), resolve.rows(), 1) = compliance * (resolve * torque);
     jacobian.block(first, lag_at(mine.joint), resolve.rows(), 1) = compliance * (resolve * by_lag);
   }
   return value;

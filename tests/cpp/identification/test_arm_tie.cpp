@@ -112,9 +112,9 @@ TEST(ArmTie, TheNearestPointToCoefficientsOfTheModelIsTheOneTheyComeFrom) {
     at += fit.fit.estimate.size();
   }
   const TiedFits tied = LoadModel(exact, made.arm).tied(point);
-  EXPECT_LT((tied.estimate - made.truth).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((tied.estimate - made.truth).cwiseAbs().maxCoeff(), 5e-4);  // what is believed beforehand of compliances
   const LoadModel counted(exact, made.arm);
-  EXPECT_GT((counted.tied(model.fit()).estimate - made.truth).cwiseAbs().maxCoeff(), 1e-4);  // without the search
+  EXPECT_GT((counted.tied(model.fit()).estimate - made.truth).cwiseAbs().maxCoeff(), 1e-3);  // without the search
 }
 
 TEST(ArmTie, APairWithAJointWhoseLineIsNotKnownKeepsWhatItsCountsTell) {
