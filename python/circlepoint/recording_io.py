@@ -313,7 +313,7 @@ def _read_log(
     column_map = replace(column_map, units={**names.units, **column_map.units})
     rows = data[names.time].size
     if names.static and rows < MIN_POSES:
-        raise table.error(f"has {rows} still poses, at least {MIN_POSES} are needed, better two a joint")
+        raise table.error(f"has {rows} still poses, at least {MIN_POSES} are needed, better four a joint")
     if not names.static and rows < MIN_SAMPLES:
         raise table.error(
             f"has {rows} samples, at least {MIN_SAMPLES} are needed (a calibration takes minutes of them)"
@@ -362,7 +362,7 @@ def _require_one_row_a_pose(table: LogTable, name: str, numbers: FloatArray) -> 
         if first.setdefault(number, row) != row:
             raise table.error(
                 f"column `{name}` is {number:.12g} again: keep one row a pose, the mean of what the one sensor on the "
-                f"end-point read at rest",
+                f"end-point read at rest; of a log, name its time column in a column map (`t:`)",
                 row,
             )
 

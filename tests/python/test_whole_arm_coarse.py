@@ -96,3 +96,18 @@ def test_moves_of_a_few_dozen_counts_and_steps_of_acceleration_are_neither_knock
     assert np.mean(squares) < 2.0
     assert np.sqrt(np.mean(np.square(end_point))) < 1.5 * np.sqrt(np.mean(np.square(predicted)))
     assert max(predicted) < 5e-4
+
+
+def test_a_low_cutoff_and_a_resolution_that_is_no_number():
+    motion = cp.joint_trajectory(
+        START, [cp.MultiJointMotion(duration=40.0, amplitude=np.full(3, 1.2), seed=3)], 250.0, 0.6
+    )
+    simulation = cp.SimulationOptions(noise_std=0.005, encoder_counts_per_revolution=np.full(3, 4096.0), seed=1)
+    log = cp.simulate(chain_of(LINES), UP, cp.AccelerometerModel(), motion, simulation)
+    options = cp.WholeArmOptions()
+    options.encoder_resolution = np.full(3, 2 * np.pi / 4096)
+    options.cutoff = 1.0
+    assert cp.calibrate_whole_arm(log, cp.segment(log), options).cutoff == 1.0
+    options.encoder_resolution = np.array([1e-3, np.nan, 1e-3])
+    with pytest.raises(cp.InvalidInput, match="encoder_resolution of joint 2 is nan"):
+        cp.calibrate_whole_arm(log, cp.segment(log), options)

@@ -14,6 +14,7 @@ constexpr double vague_point = 0.02;        // m: a line less certain than this 
 constexpr double vague_gravity = 0.005;     // rad its direction may stay open
 constexpr double unknown_direction = 0.05;  // rad: beyond, a linearised covariance means little
 constexpr double told_apart = 4.0;          // standard deviations
+constexpr double unexplained = 0.015;       // of gravity, that still poses may differ from the model by
 
 // Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
 // rests on the prior alone, or where it spans more than the linearisation.
@@ -75,12 +76,17 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
     }
     mine.reason = why_vague(*mine.axis, seen.gravity_std);
     if (!mine.reason.empty()) {
-      if (seen.gravity_std > vague_gravity && !seen.sensor_is_known) {  // what is supposed of the sensor would tell most of it
+      // What is supposed of the sensor would tell most of it.
+      if ((seen.gravity_std > vague_gravity || !layout.points) && !seen.sensor_is_known) {
         mine.axis->covariance.topLeftCorner(count, count) = seen.data_std.segment(column, count).cwiseAbs2().asDiagonal();
       }
       const double direction_std = mine.axis->direction_std();
       const double off_gravity = std::asin(std::min(1.0, state.up_gravity.normalized().cross(state.axes[at].line.direction).norm()));
-      if (!layout.points && off_gravity < told_apart * direction_std && direction_std < unknown_direction) {
+      if (!layout.points && seen.rest_rms > unexplained * state.up_gravity.norm()) {
+        std::array<char, 160> text{};
+        std::snprintf(text.data(), text.size(), "no arm that was found explains the still poses to better than %.2f m/s^2", seen.rest_rms);
+        mine.reason = std::string(text.data()) + "; check the columns, their signs and the joints' order, or record more poses";
+      } else if (!layout.points && off_gravity < told_apart * direction_std && direction_std < unknown_direction) {
         mine.reason = "its axis is along gravity, and rests show neither which way it turns nor where it is; move it, such as 0.5 Hz "
                       "over 150 degrees for 6 s";
       } else if (seen.gravity_std < unknown_direction && direction_std < unknown_direction) {

@@ -11,6 +11,7 @@ struct Seen {
   double gravity_std = 0.0;      // rad, of its direction, by the data alone where the sensor is not known
   bool sensor_is_known = true;
   Eigen::VectorXd data_std;      // of all columns, by the data alone
+  double rest_rms = 0.0;         // m/s^2, of the rests' residuals
 };
 
 // Lines with their covariance; those too vague to mean anything are given as reasons instead.

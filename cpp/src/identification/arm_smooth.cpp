@@ -69,11 +69,13 @@ SmoothSpan smooth(const Recording& recording, const IndexRange& span, double cut
   SmoothSpan result;
   result.samples = span;
   const SamplesX position = recording.joint_positions.middleRows(span.begin, span.size());
-  for (double mine = cutoff; mine > (coarse ? slowest_cutoff : 0.99 * cutoff); mine *= 0.7) {
+  double mine = cutoff;
+  do {
     result.joints.push_back({mine, rate, low_passed(position, mine, rate)});
-  }
+    mine *= 0.7;
+  } while (coarse && mine > slowest_cutoff);
   if (coarse) {
-    const double sharper = std::min(1.6 * cutoff, 0.4 * rate);
+    const double sharper = std::max(cutoff, std::min(1.6 * cutoff, 0.4 * rate));
     result.sharp = {sharper, rate, low_passed(position, sharper, rate)};
   }
   SamplesX reading(span.size(), gyroscope ? 6 : 3);
@@ -205,7 +207,7 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     step = step || sharp.derivative(3, j, seen.begin, seen.size()).array().abs() > beyond * own + resolution[j] * of_counts;
   }
   Mask left_out = Mask::Constant(moving.size(), false);
-  if (static_cast<double>(step.count()) <= too_many * static_cast<double>(moving.size())) {
+  if (static_cast<double>(step.segment(begin - seen.begin, moving.size()).count()) <= too_many * static_cast<double>(moving.size())) {
     left_out = widened(step, reach).segment(begin - seen.begin, moving.size());
   }
   if (coarse) {

@@ -28,7 +28,7 @@ constexpr int passes_that_cut = 3;        // knocks
 constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders' and its order found
 constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
 constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
-constexpr std::size_t fewest_poses = 3;
+constexpr double poses_a_direction = 0.8; // rests for each coordinate of a direction and of gravity: 2.4 readings
 constexpr double pinned_gravity = 1e-4;   // m/s^2
 
 // What calibrate_joints does not check.
@@ -56,7 +56,28 @@ void validate(const Recording& recording, const WholeArmOptions& options) {
   check("gyroscope_delay", options.gyroscope_delay);
   require(options.clock_offset.estimated || !options.clock_rate.estimated,
           "clock_rate cannot be estimated while clock_offset is fixed; fix both or neither");
+  for (Index joint = 0; joint < options.encoder_resolution.size(); ++joint) {
+    const double count = options.encoder_resolution[joint];
+    require(std::isfinite(count) && count >= 0.0, "encoder_resolution of joint " + std::to_string(joint + 1) + " is " + std::to_string(count) +
+                                                      "; give rad or m a count, or 0 for an exact encoder");
+  }
   require(options.max_passes > 0, "max_passes is " + std::to_string(options.max_passes) + "; give 1 or more");
+}
+
+// Whether rests alone are enough to tell directions by: of few, several arms fit equally well.
+void require_rests(std::size_t rests, Index turning, bool poses) {
+  const auto enough = static_cast<std::size_t>(std::ceil(poses_a_direction * static_cast<double>(2 * turning + 3)));
+  if (turning > 0 && rests >= enough) {
+    return;
+  }
+  if (!poses) {
+    throw NotIdentifiable("the recording has no stretch of motion of a few tenths of a second without a gap; record longer motions");
+  }
+  if (turning == 0) {
+    throw NotIdentifiable("only sliding joints move, and rests show nothing of them; move each, such as 0.5 Hz over 0.3 m for 6 s");
+  }
+  throw NotIdentifiable(std::to_string(rests) + " still poses are too few to tell the directions of " + std::to_string(turning) +
+                        " joints; record " + std::to_string(enough) + " at least, better " + std::to_string(2 * enough));
 }
 
 JointCalibrationOptions joint_options(const WholeArmOptions& options) {
@@ -153,12 +174,10 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.samples = problem.rows.samples;
   problem.layout.points = !problem.rows.stretches.empty();
   if (!problem.layout.points) {
-    if (problem.rows.dwells.size() < fewest_poses) {
-      throw NotIdentifiable("the recording has no stretch of motion of a few tenths of a second without a gap; record longer motions");
-    }
     for (std::size_t j = 0; j < moves.size(); ++j) {
       moves[j] = moves[j] && (options.joint_types.empty() || options.joint_types[j] == JointType::revolute);
     }
+    require_rests(problem.rows.dwells.size(), std::count(moves.begin(), moves.end(), true), recording.is_static());
   }
   name_kinds(problem.rows, joints);
 
@@ -297,7 +316,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.gyroscope_delay = state.gyroscope_delay;
 
   const double gravity_std = gravity_direction_std(problem, state, all, seen, covariance, options.sensor_is_known);
-  write_lines(result.joints, problem.layout, state, covariance, {gravity_std, options.sensor_is_known, seen.data_std});
+  const double rest_rms = now.dwells.rows() > 0 ? std::sqrt(now.dwells.leftCols<3>().cwiseAbs2().mean()) : 0.0;
+  write_lines(result.joints, problem.layout, state, covariance, {gravity_std, options.sensor_is_known, seen.data_std, rest_rms});
   write_sensor(result.joints, problem.layout, state, covariance);
   result.joints.converged = result.converged;
   result.joints.unseen.clear();
