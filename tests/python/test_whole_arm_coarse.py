@@ -98,6 +98,42 @@ def test_moves_of_a_few_dozen_counts_and_steps_of_acceleration_are_neither_knock
     assert max(predicted) < 5e-4
 
 
+def weak_motion(counts, seed):
+    """Return a log at 1,024 counts in which all joints move together by so many of them, and its estimate."""
+    amplitude = np.full(3, 0.5 * counts * 2 * np.pi / 1024)
+    motion = cp.joint_trajectory(
+        START + 3e-4, [cp.MultiJointMotion(duration=40.0, amplitude=amplitude, seed=seed)], 200.0, 0.6
+    )
+    simulation = cp.SimulationOptions(noise_std=0.01, encoder_counts_per_revolution=np.full(3, 1024.0), seed=seed)
+    log = cp.simulate(chain_of(LINES), UP, cp.draw_accelerometer(load_sensor("qa700"), seed), motion, simulation)
+    options = cp.WholeArmOptions()
+    options.sensor = load_sensor("qa700")
+    options.reference_configuration = START
+    options.encoder_resolution = np.full(3, 2 * np.pi / 1024)
+    return cp.calibrate_whole_arm(log, cp.segment(log), options)
+
+
+@pytest.mark.parametrize(("counts", "seed"), [(40, 1), (40, 3), (40, 5), (60, 3), (60, 5), (60, 6)])
+def test_motions_of_a_few_dozen_counts_shrink_no_line_and_mirror_none(counts, seed):
+    result = weak_motion(counts, seed)
+    given = 0
+    for estimate, axis in zip(result.joints.joints, chain_of(LINES).axes, strict=True):
+        if estimate.axis is None:
+            continue
+        given += 1
+        error = cp.local_coordinates(estimate.axis.screw.line, axis.line)
+        assert np.abs(error / np.sqrt(np.diag(estimate.axis.covariance))).max() < 4.0
+    assert given >= 2
+
+
+def test_a_motion_that_drowns_in_its_counts_is_named():
+    result = weak_motion(8, 0)
+    for estimate in result.joints.joints:
+        assert estimate.axis is None
+        assert estimate.vague is None
+        assert "the rounding of its encoder's counts" in estimate.reason
+
+
 def test_a_low_cutoff_and_a_resolution_that_is_no_number():
     motion = cp.joint_trajectory(
         START, [cp.MultiJointMotion(duration=40.0, amplitude=np.full(3, 1.2), seed=3)], 250.0, 0.6

@@ -14,6 +14,7 @@ constexpr double vague_point = 0.02;        // m: a line less certain than this 
 constexpr double vague_gravity = 0.005;     // rad its direction may stay open
 constexpr double unknown_direction = 0.05;  // rad: beyond, a linearised covariance means little
 constexpr double told_apart = 4.0;          // standard deviations
+constexpr double drowned = 0.015;           // of the acceleration's variance, by its counts' rounding
 constexpr double unexplained = 0.015;       // of gravity, that still poses may differ from the model by
 
 // Why a line is not given although it was fitted; empty: it is. A linearised covariance means nothing where gravity's direction
@@ -73,6 +74,20 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
     mine.axis = JointAxis{state.axes[at], estimate.covariance.block<4, 4>(4 * i, 4 * i)};
     if (!layout.points) {
       mine.axis->covariance.diagonal().tail<2>().setConstant(std::numeric_limits<double>::infinity());
+    }
+    if (seen.rounding[i] > drowned) {
+      std::array<char, 200> text{};
+      std::snprintf(text.data(), text.size(), "the rounding of its encoder's counts is %.0f %% of the acceleration it shows",
+                    100.0 * std::min(1.0, std::sqrt(seen.rounding[i])));
+      mine.reason = std::string(text.data()) + ", so its line would come out too near to the sensor; move it farther or faster";
+      mine.axis.reset();
+      continue;
+    }
+    if (!seen.ambiguous.empty() && seen.ambiguous[at]) {
+      mine.reason = "another line, with its axis mirrored at the horizontal plane, explains its short motion about as well; move it "
+                    "farther, over 60 degrees or more";
+      mine.axis.reset();
+      continue;
     }
     mine.reason = why_vague(*mine.axis, seen.gravity_std);
     if (!mine.reason.empty()) {

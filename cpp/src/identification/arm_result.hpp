@@ -11,6 +11,8 @@ struct Seen {
   double gravity_std = 0.0;      // rad, of its direction, by the data alone where the sensor is not known
   bool sensor_is_known = true;
   Eigen::VectorXd data_std;      // of all columns, by the data alone
+  Eigen::VectorXd rounding;      // (n) share of its counts' rounding in each joint's acceleration
+  std::vector<bool> ambiguous;   // (n) or empty: the mirrored line explains the joint's motion about as well
   double rest_rms = 0.0;         // m/s^2, of the rests' residuals
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "arm_encoder_noise.hpp"
@@ -154,11 +155,17 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
   return row;
 }
 
-// The highest frequency, Hz, that any joint's motion between two dwells has by its peak speed and travel.
-double motion_frequency(const Recording& recording, const Segmentation& segmentation) {
+// The motions between dwells, by their peak speeds and travels.
+struct MotionsSeen {
+  double frequency = 0.0;     // Hz, the highest of any
+  Eigen::ArrayXd travel;       // (n) the longest of each joint
+  Eigen::ArrayXd acceleration; // (n) rms, the strongest of each joint
+};
+
+MotionsSeen motions_seen(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
   constexpr double least_travel = 0.05;  // rad or m
   const auto window = std::max<Index>(1, static_cast<Index>(std::lround(0.1 * recording.sample_rate)));
-  double highest = 0.0;
+  MotionsSeen seen{0.0, Eigen::ArrayXd::Zero(recording.joints()), Eigen::ArrayXd::Zero(recording.joints())};
   const auto consider = [&](const IndexRange& range) {
     if (range.size() <= 3 * window) {
       return;
@@ -168,9 +175,11 @@ double motion_frequency(const Recording& recording, const Segmentation& segmenta
       const double travel = position.maxCoeff() - position.minCoeff();
       if (travel > least_travel) {
         const Index count = range.size() - window;
-        const double fastest = (position.tail(count) - position.head(count)).cwiseAbs().maxCoeff() * recording.sample_rate /
-                               static_cast<double>(window);
-        highest = std::max(highest, fastest / (std::numbers::pi * travel));
+        const double farthest = (position.tail(count) - position.head(count)).cwiseAbs().maxCoeff() - resolution[joint];
+        const double fastest = std::max(0.0, farthest) * recording.sample_rate / static_cast<double>(window);
+        seen.frequency = std::max(seen.frequency, fastest / (std::numbers::pi * travel));
+        seen.travel[joint] = std::max(seen.travel[joint], travel);
+        seen.acceleration[joint] = std::max(seen.acceleration[joint], std::numbers::sqrt2 * fastest * fastest / travel);
       }
     }
   };
@@ -184,7 +193,13 @@ double motion_frequency(const Recording& recording, const Segmentation& segmenta
     }
     consider({begin, span.end});
   }
-  return highest;
+  return seen;
+}
+
+// White noise of counts, differentiated twice and cut at c, has the std count / sqrt(12) sqrt(2 c / rate) (2 pi c)^2 / sqrt(5):
+// this times c^2.5.
+double rounding_at_one_hertz(double count, double rate) {
+  return count / std::sqrt(12.0) * std::sqrt(2.0 / rate) * 4.0 * std::numbers::pi * std::numbers::pi / std::sqrt(5.0);
 }
 
 }  // namespace
@@ -231,21 +246,58 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   constexpr double widest = 12.0;
   constexpr double narrowest = 4.0;
   constexpr double harmonics = 20.0;
-  constexpr double tolerated = 0.1;   // rad/s^2 of differentiated counts
-  const double frequency = motion_frequency(recording, segmentation);
+  constexpr double fewest_harmonics = 4.0;
+  constexpr double tolerated = 0.1;        // rad/s^2 of differentiated counts
+  constexpr double tolerated_share = 0.1;  // of a joint's acceleration
+  constexpr double main_travel = 0.2;      // of the longest travel: less is not what the recording was made for
+  const MotionsSeen seen = motions_seen(recording, segmentation, resolution);
   double cutoff = std::min(widest, 0.2 * recording.sample_rate);
-  if (frequency > 0.0) {
-    cutoff = std::min(cutoff, std::max(narrowest, harmonics * frequency));
+  if (seen.frequency > 0.0) {
+    cutoff = std::min(cutoff, std::max(narrowest, harmonics * seen.frequency));
   }
   const double coarsest = resolution.size() > 0 ? resolution.maxCoeff() : 0.0;
   if (coarsest > 0.0) {
-    // White quantisation noise of coarsest / sqrt(12), differentiated twice and cut at c:
-    // std = coarsest / sqrt(12) sqrt(2 c / rate) (2 pi c)^2 / sqrt(5).
-    const double per_unit = coarsest / std::sqrt(12.0) * std::sqrt(2.0 / recording.sample_rate) * 4.0 * std::numbers::pi *
-                            std::numbers::pi / std::sqrt(5.0);
-    cutoff = std::min(cutoff, std::max(narrowest, std::pow(tolerated / per_unit, 0.4)));
+    cutoff = std::min(cutoff, std::max(narrowest, std::pow(tolerated / rounding_at_one_hertz(coarsest, recording.sample_rate), 0.4)));
+  }
+  for (Index joint = 0; joint < resolution.size(); ++joint) {
+    if (resolution[joint] > 0.0 && seen.travel[joint] > main_travel * seen.travel.maxCoeff()) {
+      const double clear = tolerated_share * seen.acceleration[joint] / rounding_at_one_hertz(resolution[joint], recording.sample_rate);
+      cutoff = std::min(cutoff, std::max(fewest_harmonics * seen.frequency, std::pow(clear, 0.4)));
+    }
   }
   return cutoff;
+}
+
+Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resolution) {
+  constexpr double least_counts = 10.0;  // of travel: what joints at rest yield by
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(resolution.size());
+  for (Index joint = 0; joint < resolution.size() && !rows.stretches.empty(); ++joint) {
+    const double noise = rounding_at_one_hertz(resolution[joint], rows.sample_rate) * std::pow(rows.cutoff, 2.5);
+    double of_counts = 0.0;
+    double all = 0.0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (const MovingStretch& stretch : rows.stretches) {
+      const auto position = stretch.position.col(joint);
+      lowest = std::min(lowest, position.minCoeff());
+      highest = std::max(highest, position.maxCoeff());
+      const bool follows = stretch.follows[static_cast<std::size_t>(joint)];
+      if (!follows && position.maxCoeff() - position.minCoeff() > least_counts * resolution[joint]) {
+        of_counts += noise * noise * static_cast<double>(stretch.rows());
+        all += stretch.acceleration.col(joint).squaredNorm();
+      }
+    }
+    for (const DwellRow& dwell : rows.dwells) {
+      lowest = std::min(lowest, dwell.position[joint]);
+      highest = std::max(highest, dwell.position[joint]);
+    }
+    if (all > 0.0) {
+      share[joint] = of_counts / all;
+    } else if (highest - lowest < least_counts * resolution[joint]) {
+      share[joint] = 1.0;
+    }
+  }
+  return share;
 }
 
 namespace {

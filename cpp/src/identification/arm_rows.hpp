@@ -95,8 +95,13 @@ struct ArmRows {
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);
 
 // Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 12, above which arms
-// bend and ring (the paper takes 10), nor less than 4; less where coarse counts, differentiated twice, would drown the readings.
+// bend and ring (the paper takes 10), nor less than 4; less where coarse counts, differentiated twice, would drown the readings, and
+// as little as six times the motion's frequency where they would drown a weak motion.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
+
+// (n) The share of its counts' rounding in the variance of each joint's acceleration, where it moves: what lets lines shrink towards
+// the sensor (errors in variables) once the weights no longer tell one from the other.
+Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resolution);
 
 // Where the arm is known, joints at rest yield to the loads they bear (arm_yield).
 ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution, double cutoff,

@@ -9,6 +9,7 @@
 #include "arm_knocks.hpp"
 #include "arm_layout.hpp"
 #include "arm_marginal.hpp"
+#include "arm_mirror.hpp"
 #include "arm_report.hpp"
 #include "arm_result.hpp"
 #include "arm_scores.hpp"
@@ -227,6 +228,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const int first_cut = problem.rows.ties.empty() ? 1 : std::clamp(options.max_passes / 2, 1, most_ties);
   ArmResiduals now;
   InflationSearch search;
+  MirrorSearch mirror;
+  std::vector<bool> mirrored(static_cast<std::size_t>(joints), false);
   int since = 0;  // the pass after the columns last changed
   int last = options.max_passes;
   for (int pass = 0; pass < last; ++pass) {
@@ -259,10 +262,21 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       last = since + options.max_passes;
       continue;
     }
-    // What follows changes rows and weights, which only another pass takes in.
     if (result.converged || pass + 1 == last) {
+      if (problem.layout.points) {
+        mirror = search_mirrored(problem, state, covariance, solution.cost, mirrored);
+        if (mirror.better) {
+          mirrored[mirror.joint] = true;
+          state = mirror.better->state;
+          kept.forget();
+          since = pass + 1;
+          last = since + options.max_passes;
+          continue;
+        }
+      }
       break;
     }
+    // What follows changes rows and weights, which only another pass takes in.
     if (pass < first_cut && !problem.rows.ties.empty()) {
       retie(problem.rows, problem.offsets);
       kept.forget();
@@ -317,7 +331,9 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
 
   const double gravity_std = gravity_direction_std(problem, state, all, seen, covariance, options.sensor_is_known);
   const double rest_rms = now.dwells.rows() > 0 ? std::sqrt(now.dwells.leftCols<3>().cwiseAbs2().mean()) : 0.0;
-  write_lines(result.joints, problem.layout, state, covariance, {gravity_std, options.sensor_is_known, seen.data_std, rest_rms});
+  write_lines(result.joints, problem.layout, state, covariance,
+              {gravity_std, options.sensor_is_known, seen.data_std, rounding_share(problem.rows, resolution), mirror.ambiguous,
+               rest_rms});
   write_sensor(result.joints, problem.layout, state, covariance);
   result.joints.converged = result.converged;
   result.joints.unseen.clear();
