@@ -245,7 +245,7 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
   constexpr double widest = 12.0;
   constexpr double narrowest = 4.0;
-  constexpr double harmonics = 20.0;
+  const double harmonics = are_coarse(resolution) ? 10.0 : 20.0;
   constexpr double fewest_harmonics = 4.0;
   constexpr double tolerated = 0.1;        // rad/s^2 of differentiated counts
   constexpr double tolerated_share = 0.1;  // of a joint's acceleration

@@ -94,7 +94,8 @@ struct ArmRows {
 // The given rows of a stretch.
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);
 
-// Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold; not more than 12, above which arms
+// Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold, or ten times with coarse encoders, whose
+// noise rises faster than what the readings tell; not more than 12, above which arms
 // bend and ring (the paper takes 10), nor less than 4; less where coarse counts, differentiated twice, would drown the readings, and
 // as little as six times the motion's frequency where they would drown a weak motion.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);

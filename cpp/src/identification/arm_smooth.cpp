@@ -14,6 +14,7 @@ namespace {
 constexpr int filter_order = 4;
 constexpr double slowest_cutoff = 1.0;  // Hz
 constexpr double few_counts = 50.0;
+constexpr double slow_crossings = 5.0;  // counts in the filter's time, 1 / cutoff
 constexpr double finest_resolution = 1e-9;  // rad or m, of encoders taken as exact
 
 // Derivatives are those of the sixth-degree polynomial through seven samples: two-point differences would shrink them by
@@ -177,6 +178,7 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
   constexpr double beyond = 3.0;      // eq. (11) inside reaches 1, a minimum-jerk move 2.3, a step of acceleration 5 and more
   constexpr double unlikely = 4.0;    // standard deviations of the counts' noise
   constexpr double likely = 2.0;      // where a motion may begin from rest, with a step
+  constexpr double one_count = 0.13;  // of the pass band's cube: the jerk of a single count by itself is 1 / (3 pi)
   constexpr double too_many = 0.2;    // share of a range that is then a motion of its own kind, not steps
   const SmoothJoints& joints = span.joints.front();
   const bool coarse = are_coarse(resolution);
@@ -190,9 +192,11 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
   // Jerk by a count: white noise, thrice differentiated and cut there, has the std. Where a motion may begin from rest a step is no
   // surprise.
   Eigen::ArrayXd of_counts = Eigen::ArrayXd::Zero(seen.size());
+  double of_one = 0.0;
   if (coarse) {
     const double pass = 2.0 * std::numbers::pi * sharp.cutoff;
     const double std = std::sqrt(2.0 * sharp.cutoff / (12.0 * 7.0 * rate)) * pass * pass * pass;
+    of_one = one_count * pass * pass * pass;
     of_counts.setConstant(unlikely * std);
     of_counts.head(std::min(seen.size(), begin - seen.begin + reach)).setConstant(likely * std);
     of_counts.tail(std::min(seen.size(), seen.end - begin - moving.size() + reach)).setConstant(likely * std);
@@ -204,7 +208,17 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     }
     const double fastest = joints.derivative(1, j, begin, moving.size()).cwiseAbs().maxCoeff();
     const double own = std::pow(2.0 * fastest / travel, 2) * fastest;
-    step = step || sharp.derivative(3, j, seen.begin, seen.size()).array().abs() > beyond * own + resolution[j] * of_counts;
+    Eigen::ArrayXd noise = of_counts;
+    if (coarse) {  // inside, a joint that turns round crosses its counts one by one
+      const Eigen::ArrayXd speed = joints.derivative(1, j, begin, moving.size()).array().abs();
+      for (Index i = reach; i + reach < moving.size(); ++i) {
+        if (speed[i] < slow_crossings * joints.cutoff * resolution[j]) {
+          double& here = noise[begin - seen.begin + i];
+          here = std::max(here, of_one);
+        }
+      }
+    }
+    step = step || sharp.derivative(3, j, seen.begin, seen.size()).array().abs() > beyond * own + resolution[j] * noise;
   }
   Mask left_out = Mask::Constant(moving.size(), false);
   if (static_cast<double>(step.segment(begin - seen.begin, moving.size()).count()) <= too_many * static_cast<double>(moving.size())) {
@@ -215,7 +229,7 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     const auto margin = static_cast<Index>(std::lround(0.3 * rate / joints.cutoff));
     Mask creeping = Mask::Constant(moving.size(), false);
     for (const MovingAlone& motion : alone) {
-      const double slow = 5.0 * joints.cutoff * resolution[motion.joint];
+      const double slow = slow_crossings * joints.cutoff * resolution[motion.joint];
       const Index size = motion.samples.size();
       creeping.segment(motion.samples.begin - moving.begin, size) =
           joints.derivative(1, motion.joint, motion.samples.begin - span.samples.begin, size).array().abs() < slow;
