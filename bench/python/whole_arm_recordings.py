@@ -140,8 +140,9 @@ def recording(folder: Path) -> None:
             supposed = calibrate(log.recording, arm, sensor=load_sensor("mems"))
             against_nominal(supposed, arm)
             fit = supposed.document["fit"]
-            at_rest = 1e3 * (fit["static_noise_std"] or np.nan)
-            print(f"  residual {1e3 * fit['noise_std']:.0f} mm/s² in motion, {at_rest:.0f} at rest")
+            at_rest = fit["static_noise_std"]
+            rests = "no rests" if at_rest is None else f"{1e3 * at_rest:.0f} at rest"
+            print(f"  residual {1e3 * fit['noise_std']:.0f} mm/s² in motion, {rests}")
     except cp.Error as error:
         print(f"  {error}")
 

@@ -12,7 +12,7 @@ from circlepoint.dh_rows import to_rows
 from circlepoint.nominal import joint_types, nominal_dh_chain
 from circlepoint.result_document import result_document
 from circlepoint.sensor_presets import load_sensor
-from circlepoint.treatments import set_treatments, treatment_entries
+from circlepoint.treatments import require_visible, set_treatments, treatment_entries
 from circlepoint.whole_arm_document import with_whole_arm
 
 if TYPE_CHECKING:
@@ -175,9 +175,7 @@ def calibrate(
         raise circlepoint.InvalidInput(
             f"treatments of {', '.join(treatments)} are for the method whole-arm, asked for is {method}; leave them out"
         )
-    gyroscopes = [name for name in treatments or () if name.startswith("gyroscope")]
-    if gyroscopes and recording.angular_velocity is None:
-        raise circlepoint.InvalidInput(f"{gyroscopes[0]}: this recording has no gyroscope; leave it out")
+    require_visible(recording, treatments or {})
     segmentation = circlepoint.segment(recording, circlepoint.SegmentationOptions(joint_types=joint_types(arm)))
     whole_arm = None
     if method == "whole-arm":

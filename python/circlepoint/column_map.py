@@ -264,10 +264,13 @@ def find_columns(table: LogTable, arm: Arm, column_map: ColumnMap) -> FileColumn
         temperature=search.one("temp", TEMPERATURE_NAMES, "temp"),
         sensor_time=search.one("t_sensor", SENSOR_TIME_NAMES, "t") if joints and all(force) else None,
     )
-    if not columns.time and joints and columns.specific_force and (pose := search.one("pose", POSE_NAMES, "t")):
-        columns = replace(columns, time=pose, sensor_time=None, static=True)
     if not columns.time:
-        raise table.error(f"the time column is missing (t, time or timestamp); {_found(table)}")
+        pose = None if columns.sensor_time else search.one("pose", POSE_NAMES, "t")
+        if pose and joints and columns.specific_force:
+            columns = replace(columns, time=pose, static=True)
+        else:
+            poses = "; a table of still poses holds joints and sensor in the same rows" if pose else ""
+            raise table.error(f"the time column is missing (t, time or timestamp){poses}; {_found(table)}")
     if columns.joints is None and columns.specific_force is None:
         raise table.error(
             f"neither joint positions (q1 .. q{len(arm.joints)}) nor specific force (ax, ay, az) are among the "

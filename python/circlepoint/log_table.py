@@ -160,8 +160,11 @@ def empty_rows(piece: Mapping[str, FloatArray], group: Sequence[str]) -> NDArray
     return empty
 
 
-def require_finite(table: LogTable, name: str, values: FloatArray, first_row: int = 0) -> None:
-    """Raise InvalidInput at the first value that is empty, NaN or infinite; `values` begin at `first_row`."""
+def require_finite(table: LogTable, name: str, values: FloatArray, first_row: int = 0, *, static: bool = False) -> None:
+    """Raise InvalidInput at the first value that is empty, NaN or infinite.
+
+    `values` begin at `first_row`; `static`: rows are still poses.
+    """
     bad = np.flatnonzero(~np.isfinite(values))
     if not bad.size:
         return
@@ -169,6 +172,8 @@ def require_finite(table: LogTable, name: str, values: FloatArray, first_row: in
     others = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
     if np.isinf(values[row]):
         raise table.error(f"column `{name}` is {values[row]}, must be finite{others}; remove the row", first_row + row)
+    if static:
+        raise table.error(f"column `{name}` is empty or not a number{others}; remove the row", first_row + row)
     raise table.error(
         f"column `{name}` is empty or not a number{others}; remove such rows (a gap is handled); rows that hold only "
         f"joints beside rows that hold only the sensor are two rates in one log, and are taken as such when there are "

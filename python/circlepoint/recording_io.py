@@ -319,7 +319,7 @@ def _read_log(
             f"has {rows} samples, at least {MIN_SAMPLES} are needed (a calibration takes minutes of them)"
         )
     for name in (names.time, *(names.joints or ()), *(names.specific_force or ())):
-        require_finite(table, name, data[name])
+        require_finite(table, name, data[name], static=names.static)
     source = table.label
     findings = [*table.findings, *(Finding("columns", f"{source}: {note}") for note in names.notes)]
     if names.static:

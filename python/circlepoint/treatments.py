@@ -10,7 +10,7 @@ from circlepoint._core import InvalidInput, ParameterTreatment
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from circlepoint._core import WholeArmOptions
+    from circlepoint._core import Recording, WholeArmOptions
     from circlepoint.document import Document
 
 PARAMETER_GROUPS = {
@@ -29,6 +29,31 @@ PARAMETER_GROUPS = {
     "gyroscope_delay": "s",
 }
 """Names, as those of `circlepoint.WholeArmOptions`, with the unit of a prior's standard deviation."""
+
+
+_OF_GYROSCOPE = {name for name in PARAMETER_GROUPS if name.startswith("gyroscope")}
+_OF_MOTION = {"percussion_distance", "clock_offset", "clock_rate"}
+
+
+def require_visible(recording: Recording, treatments: Mapping[str, ParameterTreatment]) -> None:
+    """Require that a recording is of the kind that has the parameters.
+
+    Parameters
+    ----------
+    recording : Recording
+    treatments : mapping of str to ParameterTreatment
+        By names of `PARAMETER_GROUPS`.
+
+    Raises
+    ------
+    InvalidInput
+        For a gyroscope's where there is none, and for what still poses cannot show.
+    """
+    for name in treatments:
+        if name in _OF_GYROSCOPE and recording.angular_velocity is None:
+            raise InvalidInput(f"{name}: this recording has no gyroscope; leave it out")
+        if recording.is_static and name in _OF_GYROSCOPE | _OF_MOTION:
+            raise InvalidInput(f"{name}: still poses show nothing of it; leave it out")
 
 
 def read_treatment(text: str) -> tuple[str, ParameterTreatment]:

@@ -131,7 +131,7 @@ def _fit_entry(estimate: circlepoint.WholeArmCalibration) -> Document:
         "samples": estimate.samples,
         "rows": estimate.rows,
         "outliers": estimate.outliers,
-        "cutoff": estimate.cutoff,
+        **({"cutoff": estimate.cutoff} if moving else {}),
         "noise_std": in_motion,
         "static_noise_std": at_rest,
         "residual_rms": in_motion if moving else at_rest,

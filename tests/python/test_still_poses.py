@@ -67,6 +67,32 @@ def test_directions_are_found_as_well_as_stated_and_no_line_is_given():
     assert 0.75 < np.mean(squares) < 1.35  # of 180: 1 +- 0.11, and the noise is found in few equations
 
 
+@pytest.mark.parametrize("joints", [3, 6])
+def test_the_true_arm_is_found_among_several_that_fit_in_part(joints):
+    squares = []
+    for seed in range(25):  # with three random starts that agree, two of 25 ended at another arm
+        random = np.random.default_rng(1000 + seed)
+        axes = []
+        for _ in range(joints):
+            direction = random.normal(size=3)
+            line = cp.make_line(direction / np.linalg.norm(direction), 0.3 * random.normal(size=3))
+            axes.append(cp.ScrewAxis(type=cp.JointType.revolute, line=line))
+        chain = cp.ScrewChain(axes, random.uniform(-1.0, 1.0, joints))
+        q = chain.reference_configuration + random.uniform(-1.2, 1.2, (25, joints))
+        sensor = cp.draw_accelerometer(load_sensor("mems"), seed)
+        simulation = cp.SimulationOptions(noise_std=NOISE, seed=seed)
+        made = cp.simulate(chain, UP, sensor, cp.static_poses(q), simulation)
+        table = cp.make_static_recording(np.array(made.joint_positions), np.array(made.specific_force))
+        options = {"sensor": load_sensor("mems"), "reference_configuration": chain.reference_configuration}
+        result = calibrate(table, arm_of(("revolute",) * joints), **options)
+        for estimate, true in zip(result.joints.joints, chain.axes, strict=True):
+            there = cp.make_line(np.array(true.line.direction), np.array(estimate.vague.screw.line.point))
+            error = cp.local_coordinates(estimate.vague.screw.line, there)[:2]
+            squares.append(error @ np.linalg.solve(estimate.vague.covariance[:2, :2], error) / 2)
+    assert max(squares) < 12.0
+    assert 0.75 < np.mean(squares) < 1.4
+
+
 def test_more_poses_show_more():
     chain = chain_of(LINES)
     few, many = (
@@ -188,6 +214,34 @@ def test_a_pose_that_comes_twice_and_too_few_poses_are_refused(tmp_path):
         read_recording(tmp_path / "few.csv", arm_of())
     with pytest.raises(cp.InvalidInput, match="there are 2 still poses, at least 3"):
         cp.make_static_recording(q[:2], force[:2])
+
+
+def test_a_table_that_is_half_of_one_has_a_sensor_clock_or_a_hole_says_so(tmp_path):
+    q, force = poses_of(chain_of(LINES), 4)
+    write_table(tmp_path / "poses.csv", q, force)
+    rows = [line.split(",") for line in (tmp_path / "poses.csv").read_text().splitlines()]
+    (tmp_path / "joints.csv").write_text("\n".join(",".join(row[:4]) for row in rows))
+    with pytest.raises(cp.InvalidInput, match=r"time column is missing.*holds joints and sensor in the same rows"):
+        read_recording(tmp_path / "joints.csv", arm_of())
+    (tmp_path / "clock.csv").write_text(
+        "\n".join(",".join(["t_sensor" if i == 0 else str(i), *row]) for i, row in enumerate(rows))
+    )
+    with pytest.raises(cp.InvalidInput, match="time column is missing"):
+        read_recording(tmp_path / "clock.csv", arm_of())
+    rows[4][2] = ""
+    (tmp_path / "hole.csv").write_text("\n".join(",".join(row) for row in rows))
+    with pytest.raises(
+        cp.InvalidInput, match=r"hole.csv, line 5: column `q2` is empty or not a number; remove the row$"
+    ):
+        read_recording(tmp_path / "hole.csv", arm_of())
+
+
+def test_what_poses_cannot_do_is_refused():
+    table = cp.make_static_recording(*poses_of(chain_of(LINES), 1))
+    for name in ("clock_offset", "clock_rate", "percussion_distance"):
+        with pytest.raises(cp.InvalidInput, match=f"{name}: still poses show nothing of it"):
+            calibrate(table, arm_of(), treatments={name: cp.ParameterTreatment()})
+    assert "cutoff" not in calibrate(table, arm_of()).document["fit"]
 
 
 def test_too_few_poses_are_refused_with_how_many_are_enough():

@@ -95,9 +95,9 @@ struct ArmRows {
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);
 
 // Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold, or ten times with coarse encoders, whose
-// noise rises faster than what the readings tell; not more than 12, above which arms
-// bend and ring (the paper takes 10), nor less than 4; less where coarse counts, differentiated twice, would drown the readings, and
-// as little as six times the motion's frequency where they would drown a weak motion.
+// noise rises faster than what the readings tell; not more than 12, above which arms bend and ring (the paper takes 10), nor less than 4;
+// less where coarse counts, differentiated twice, would drown the readings, and as little as four times the motion's frequency where they
+// would drown a weak motion.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
 // (n) The share of its counts' rounding in the variance of each joint's acceleration, where it moves: what lets lines shrink towards

@@ -11,6 +11,10 @@ namespace circlepoint {
 namespace {
 
 constexpr Index rows_for_starting = 600;
+constexpr double noise = 0.3;           // m/s^2, by which all is weighted
+constexpr double explained = 0.15;      // m/s^2 rms: what bias and vibration may leave of the right arm
+constexpr int enough_repeats = 3;       // of the smallest cost
+constexpr int many_repeats = 12;        // where it explains little
 
 // Every k-th row of every stretch and all dwells (at most as many), weighted alike.
 ArmRows thin(const ArmRows& rows) {
@@ -66,7 +70,7 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
   small.rows = thin(problem.rows);
   small.prior.gravity = problem.prior.gravity;
   small.prior.gravity_std = 0.1;
-  small.noise = white_noise(small.rows, 0.3, 0.3, 0.03);
+  small.noise = white_noise(small.rows, noise, noise, 0.1 * noise);
   small.offsets = Eigen::VectorXd::Zero(small.rows.offset_covariance.rows());
   small.threads = problem.threads;
   small.layout.points = problem.layout.points;
@@ -75,7 +79,8 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
 
   double best_cost = std::numeric_limits<double>::infinity();
   int repeats = 0;
-  for (int trial = 0; trial < random_starts && repeats < 3; ++trial) {
+  const double well = std::pow(explained / noise, 2) * static_cast<double>(small.rows.equations());
+  for (int trial = 0; trial < random_starts && repeats < (best_cost < well ? enough_repeats : many_repeats); ++trial) {
     RandomSource random(derive_seed(seed, static_cast<std::uint64_t>(trial)));
     ArmState start = known_state;
     for (const std::size_t joint : unknown) {
