@@ -134,6 +134,23 @@ def test_a_motion_that_drowns_in_its_counts_is_named():
         assert "the rounding of its encoder's counts" in estimate.reason
 
 
+def test_exact_encoders_are_not_taken_for_coarse_ones_by_the_first_steps_of_a_motion():
+    chain = chain_of(LINES)
+    pieces = [cp.RaisedCosine(joint=joint, span=2.4, frequency=1.0, duration=8.0) for joint in range(3)]
+    motion = cp.joint_trajectory(START, pieces, 100.0, 0.6)  # from rest in steps of 1, 3, 5 times 2.4 mrad
+    sensor = cp.draw_accelerometer(load_sensor("qa700"), 1)
+    log = cp.simulate(chain, UP, sensor, motion, cp.SimulationOptions(noise_std=0.001, seed=1))
+    options = cp.WholeArmOptions()
+    options.sensor = load_sensor("qa700")
+    options.reference_configuration = START
+    result = cp.calibrate_whole_arm(log, cp.segment(log), options)
+    assert result.cutoff == 12.0
+    assert not [p.name for p in result.parameters if "gain" in p.name or "eccentricity" in p.name]
+    for estimate, axis in zip(result.joints.joints, chain.axes, strict=True):
+        error = cp.local_coordinates(estimate.axis.screw.line, axis.line)
+        assert np.abs(error / np.sqrt(np.diag(estimate.axis.covariance))).max() < 4.0
+
+
 def test_a_low_cutoff_and_a_resolution_that_is_no_number():
     motion = cp.joint_trajectory(
         START, [cp.MultiJointMotion(duration=40.0, amplitude=np.full(3, 1.2), seed=3)], 250.0, 0.6

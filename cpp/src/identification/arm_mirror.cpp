@@ -1,12 +1,14 @@
 #include "arm_mirror.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace circlepoint {
 namespace {
 
-constexpr double well_known = 1e-3;     // rad: a direction known so well has been told from its mirror image
+constexpr double short_travel = 1.2;    // rad: over more, no other line fits by half
 constexpr double least_turn = 0.02;     // rad between the two, below which they are one
 constexpr double same = 6.0;            // standard deviations between two that are one
 constexpr double told_apart = 16.0;     // by which the sum of squares must be larger: four standard deviations
@@ -22,6 +24,22 @@ Eigen::VectorXd where_it_moves(const ArmRows& rows, Index joint, const Eigen::Ve
     weight += squares;
   }
   return weight > 0.0 ? Eigen::VectorXd(mean / weight) : otherwise;
+}
+
+double travel(const ArmRows& rows, Index joint) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  const auto see = [&](double low, double high) {
+    lowest = std::min(lowest, low);
+    highest = std::max(highest, high);
+  };
+  for (const MovingStretch& stretch : rows.stretches) {
+    see(stretch.position.col(joint).minCoeff(), stretch.position.col(joint).maxCoeff());
+  }
+  for (const DwellRow& dwell : rows.dwells) {
+    see(dwell.position[joint], dwell.position[joint]);
+  }
+  return highest - lowest;
 }
 
 // Mirrored at the horizontal plane where the joint moves; with the point that leaves the acceleration at the sensor least changed.
@@ -56,7 +74,7 @@ MirrorSearch search_mirrored(const ArmProblem& problem, const ArmState& state, c
     start.axes[i].line = mirrored(state, joint, where_it_moves(problem.rows, joint, state.reference));
     const Eigen::Vector3d& direction = state.axes[i].line.direction;
     const auto apart = [&](const Line& line) { return direction.cross(line.direction).norm() > std::max(least_turn, same * std); };
-    if (std < well_known || !apart(start.axes[i].line)) {
+    if (travel(problem.rows, joint) > short_travel || !apart(start.axes[i].line)) {
       continue;
     }
     ArmSolution other = solve(problem, start, most_iterations);

@@ -16,7 +16,7 @@ struct MirrorSearch {
   std::vector<bool> ambiguous;        // (n) the mirrored line explains the joint's motion about as well
 };
 
-// Solves from the mirrored line of every revolute joint whose direction is not known well. `cost` is the solution's that `state` and
+// Solves from the mirrored line of every revolute joint that travels little. `cost` is the solution's that `state` and
 // `covariance` belong to. Of joints already mirrored neither line is better: each is with the weights found for it.
 MirrorSearch search_mirrored(const ArmProblem& problem, const ArmState& state, const Eigen::MatrixXd& covariance, double cost,
                              const std::vector<bool>& already);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "circlepoint/conditioning/butterworth.hpp"
@@ -65,21 +66,47 @@ const MotionSamples& widest_motion(const TestSamples& samples) {
                            [&](const auto& a, const auto& b) { return travel(a) < travel(b); });
 }
 
+namespace {
+
+// The count that a joint's steps from one sample to the next are multiples of, and by which it moves from one value it holds to another,
+// as no smooth motion does; 0: there is none.
+double count_of(const Eigen::Ref<const Eigen::VectorXd>& positions) {
+  constexpr double same = 1e-8;
+  constexpr double few = 10.0;       // counts a step, of which rounding in a file leaves whole numbers
+  constexpr double off = 0.1;        // of a count
+  constexpr double most = 0.9;       // of the small steps
+  const Eigen::ArrayXd steps = (positions.tail(positions.size() - 1) - positions.head(positions.size() - 1)).array().abs();
+  const auto holds = [&](Index k) { return k < 0 || k >= steps.size() || steps[k] <= same; };
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double step : steps) {
+    smallest = step > same ? std::min(smallest, step) : smallest;
+  }
+  Index small = 0;
+  Index whole = 0;
+  bool from_hold_to_hold = false;
+  for (Index k = 0; k < steps.size(); ++k) {
+    if (steps[k] <= same || steps[k] >= few * smallest) {
+      continue;
+    }
+    const double counts = steps[k] / smallest;
+    ++small;
+    whole += std::abs(counts - std::round(counts)) < off ? 1 : 0;
+    from_hold_to_hold = from_hold_to_hold || (counts < 1.0 + off && holds(k - 1) && holds(k + 1));
+  }
+  return from_hold_to_hold && static_cast<double>(whole) > most * static_cast<double>(small) ? smallest : 0.0;
+}
+
+}  // namespace
+
 Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibrationOptions& options) {
   if (options.encoder_resolution.size() == recording.joints()) {
     return options.encoder_resolution;
   }
   Eigen::VectorXd resolution = Eigen::VectorXd::Zero(recording.joints());
-  const Index watched = recording.is_static() ? 0 : recording.joints();  // from one still pose to the next a joint makes many steps
-  for (Index joint = 0; joint < watched; ++joint) {
-    double smallest = 0.0;
-    for (Index i = 1; i < recording.samples(); ++i) {
-      const double step = std::abs(recording.joint_positions(i, joint) - recording.joint_positions(i - 1, joint));
-      if (step > 1e-8 && (smallest == 0.0 || step < smallest)) {
-        smallest = step;
-      }
+  if (!recording.is_static() && recording.samples() > 1) {  // from one still pose to the next a joint makes many steps
+    for (Index joint = 0; joint < recording.joints(); ++joint) {
+      resolution[joint] = count_of(recording.joint_positions.col(joint));
     }
-    resolution[joint] = smallest;
   }
   return resolution;
 }

@@ -33,7 +33,7 @@ struct TestSamples {
 // The motion with the largest travel. Raises NotIdentifiable where there is none.
 const MotionSamples& widest_motion(const TestSamples& samples);
 
-// The smallest step of each joint's encoder, rad or m: from options, or the smallest change seen (0 for a joint at rest).
+// Each joint's encoder count, rad or m: from options, or what its steps are multiples of (0: a joint at rest, or nothing shows one).
 Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibrationOptions& options);
 
 // Low-pass for both sides of the regression, Hz: 10, less where the encoder's counts, differentiated twice, would drown the
