@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "arm_solve.hpp"
 
 namespace circlepoint {
 namespace {
@@ -12,7 +15,7 @@ constexpr double short_travel = 1.2;    // rad: over more, no other line fits by
 constexpr double least_turn = 0.02;     // rad between the two, below which they are one
 constexpr double same = 6.0;            // standard deviations between two that are one
 constexpr double told_apart = 16.0;     // by which the sum of squares must be larger: four standard deviations
-constexpr int most_iterations = 30;
+constexpr double hopeless = 3.0;        // times the sum of squares, with the noise as it is
 
 // (n) The mean of the joints' positions while the joint moves.
 Eigen::VectorXd where_it_moves(const ArmRows& rows, Index joint, const Eigen::VectorXd& otherwise) {
@@ -57,38 +60,48 @@ Line mirrored(const ArmState& state, Index joint, const Eigen::VectorXd& positio
   return {direction, moment.cross(direction)};
 }
 
+double apart(const Line& one, const Line& other) { return one.direction.cross(other.direction).norm(); }
+
 }  // namespace
 
-MirrorSearch search_mirrored(const ArmProblem& problem, const ArmState& state, const Eigen::MatrixXd& covariance, double cost,
-                             const std::vector<bool>& already) {
-  MirrorSearch search;
-  search.ambiguous.assign(state.axes.size(), false);
-  for (std::size_t i = 0; i < state.axes.size(); ++i) {
-    const Index column = problem.layout.lines[i];
-    if (column < 0 || state.axes[i].type != JointType::revolute) {
-      continue;
-    }
-    const double std = std::sqrt(covariance.diagonal().segment<2>(column).maxCoeff());
-    const auto joint = static_cast<Index>(i);
-    ArmState start = state;
-    start.axes[i].line = mirrored(state, joint, where_it_moves(problem.rows, joint, state.reference));
-    const Eigen::Vector3d& direction = state.axes[i].line.direction;
-    const auto apart = [&](const Line& line) { return direction.cross(line.direction).norm() > std::max(least_turn, same * std); };
-    if (travel(problem.rows, joint) > short_travel || !apart(start.axes[i].line)) {
-      continue;
-    }
-    ArmSolution other = solve(problem, start, most_iterations);
-    if (!other.converged || !apart(other.state.axes[i].line)) {
-      continue;
-    }
-    if (!already[i] && other.cost < (search.better ? search.better->cost : cost)) {
-      search.better = std::move(other);
-      search.joint = i;
-    } else {
-      search.ambiguous[i] = other.cost < cost + told_apart;
+std::vector<bool> settle_among_mirrored(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& options) {
+  const std::size_t joints = fit.state.axes.size();
+  std::vector<bool> ambiguous(joints, false);
+  std::vector<std::size_t> candidates;
+  for (std::size_t i = 0; i < joints && fit.problem.layout.points; ++i) {
+    if (fit.problem.layout.lines[i] >= 0 && fit.state.axes[i].type == JointType::revolute &&
+        travel(fit.problem.rows, static_cast<Index>(i)) < short_travel) {
+      candidates.push_back(i);
     }
   }
-  return search;
+  const ArmProblem fresh = candidates.empty() ? ArmProblem{} : fit.problem;
+  settle(fit, moves, options);
+  for (const std::size_t i : candidates) {
+    const auto joint = static_cast<Index>(i);
+    ArmState start = fit.state;
+    start.axes[i].line = mirrored(fit.state, joint, where_it_moves(fit.problem.rows, joint, fit.state.reference));
+    const Line before = fit.state.axes[i].line;
+    if (apart(start.axes[i].line, before) < least_turn) {
+      continue;
+    }
+    const ArmSolution first = solve(fit.problem, start, most_iterations);
+    if (apart(first.state.axes[i].line, before) < least_turn || first.cost > hopeless * fit.data.cost) {
+      continue;
+    }
+    ArmFit rival{fresh, first.state};
+    settle(rival, moves, options);
+    const double std = std::sqrt(rival.covariance.diagonal().segment<2>(rival.problem.layout.lines[i]).maxCoeff());
+    if (apart(rival.state.axes[i].line, before) < std::max(least_turn, same * std)) {
+      continue;
+    }
+    rival.iterations += fit.iterations;
+    const double worse = misfit(rival) - misfit(fit);
+    if (worse < 0.0) {
+      std::swap(fit, rival);
+    }
+    ambiguous[i] = std::abs(worse) < told_apart;
+  }
+  return ambiguous;
 }
 
 }  // namespace circlepoint

@@ -3,22 +3,14 @@
 // angle times its axis' part across gravity; whether the axis points up or down along gravity only what is of second order in the angle
 // tells, and the acceleration's moment about the line, which another place of it makes up for.
 
-#include <optional>
 #include <vector>
 
-#include "arm_solve.hpp"
+#include "arm_settle.hpp"
 
 namespace circlepoint {
 
-struct MirrorSearch {
-  std::optional<ArmSolution> better;  // of the smaller sum of squares
-  std::size_t joint = 0;              // whose line was mirrored for it
-  std::vector<bool> ambiguous;        // (n) the mirrored line explains the joint's motion about as well
-};
-
-// Solves from the mirrored line of every revolute joint that travels little. `cost` is the solution's that `state` and
-// `covariance` belong to. Of joints already mirrored neither line is better: each is with the weights found for it.
-MirrorSearch search_mirrored(const ArmProblem& problem, const ArmState& state, const Eigen::MatrixXd& covariance, double cost,
-                             const std::vector<bool>& already);
+// Settles the fit, then from the mirrored line of every revolute joint that travels little, and keeps the one of the smallest misfit, each
+// with the noise found for it. (n): joints whose mirrored line explains the recording about as well.
+std::vector<bool> settle_among_mirrored(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& options);
 
 }  // namespace circlepoint

@@ -140,6 +140,20 @@ void whiten_stretch(const ArmNoise& noise, const ArmRows& rows, std::size_t inde
   }
 }
 
+double log_root_determinant(const ArmNoise& noise, const ArmRows& rows, std::size_t index) {
+  const MovingStretch& stretch = rows.stretches[index];
+  double sum = 0.0;
+  for (const AutoregressiveModel& channel : noise.kinds[static_cast<std::size_t>(stretch.noise)].channels) {
+    for (Index row = 0; row < stretch.rows(); ++row) {
+      sum += std::log(channel.innovation_std[std::min(row, channel.order())]);
+    }
+  }
+  if (index < noise.encoder.size() && noise.encoder[index].size() > 0) {
+    sum += noise.encoder[index].diagonal().array().log().sum();
+  }
+  return sum;
+}
+
 void name_kinds(ArmRows& rows, Index joints) {
   constexpr Index shortest = 100;
   std::vector<Index> count(static_cast<std::size_t>(joints) + 1, 0);

@@ -34,6 +34,9 @@ void include_encoders(ArmNoise& noise, const ArmRows& rows, const std::vector<Ei
 // Whitens stretch `index` in place, the encoders' errors included; `columns` as for its MotionNoise.
 void whiten_stretch(const ArmNoise& noise, const ArmRows& rows, std::size_t index, Eigen::Ref<Eigen::MatrixXd> columns);
 
+// The logarithm of the determinant of what the whitening of stretch `index` undoes: half that of its noise's covariance.
+double log_root_determinant(const ArmNoise& noise, const ArmRows& rows, std::size_t index);
+
 // Kinds of motion: each joint alone, and all others; a kind too short for a noise model of its own joins the others.
 void name_kinds(ArmRows& rows, Index joints);
 

@@ -5,30 +5,20 @@
 #include <thread>
 
 #include "arm_encoder_errors.hpp"
-#include "arm_encoder_noise.hpp"
-#include "arm_knocks.hpp"
 #include "arm_layout.hpp"
-#include "arm_marginal.hpp"
 #include "arm_mirror.hpp"
 #include "arm_report.hpp"
 #include "arm_result.hpp"
-#include "arm_scores.hpp"
+#include "arm_settle.hpp"
 #include "arm_solve.hpp"
 #include "arm_start.hpp"
 #include "arm_yield.hpp"
 #include "circlepoint/core/error.hpp"
-#include "scaled_information.hpp"
 #include "test_samples.hpp"
 
 namespace circlepoint {
 namespace {
 
-constexpr double still = 0.05;          // standard deviations a pass may still move a parameter by
-constexpr int most_ties = 6;            // passes in which what the readings tell of resting joints' loads is taken up; knocks show after
-constexpr int passes_that_cut = 3;        // knocks
-constexpr int passes_to_settle = 5;     // in which the sensor's noise is told from the encoders' and its order found
-constexpr double disagreement = 2.0;    // of the stretches' scores, beyond which encoders are looked at before all is settled
-constexpr double last_change = 0.1;     // of the sum of squares, by a step after which the next would be next to nothing
 constexpr double poses_a_direction = 0.8; // rests for each coordinate of a direction and of gravity: 2.4 readings
 constexpr double pinned_gravity = 1e-4;   // m/s^2
 
@@ -106,19 +96,6 @@ ArmState initial_state(const Recording& recording, const JointCalibration& start
     state.axes.push_back(estimate.axis ? estimate.axis->screw : ScrewAxis{type, Line{}});
   }
   return state;
-}
-
-double largest_step(const ArmState& before, const ArmState& after, const ArmLayout& layout, const Eigen::MatrixXd& covariance) {
-  Eigen::VectorXd change = values(after, layout) - values(before, layout);
-  for (std::size_t i = 0; i < before.axes.size(); ++i) {
-    if (layout.lines[i] >= 0) {
-      const Eigen::Vector4d local = local_coordinates(before.axes[i].line, after.axes[i].line);
-      const Index count = layout.line_columns(before.axes[i]);
-      change.segment(layout.lines[i], count) = local.head(count);
-    }
-  }
-  const Eigen::VectorXd std = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
-  return change.cwiseAbs().cwiseQuotient(std).maxCoeff();
 }
 
 // rad, by the data alone or by what is known of the sensor. A magnitude that is estimated and that nothing shows hides no direction.
@@ -203,144 +180,71 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   constexpr double dwell_guess = 0.02;  // m/s^2
   constexpr double rate_guess = 0.01;   // rad/s
   problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
-  Eigen::MatrixXd information;  // data and priors
-  Eigen::MatrixXd covariance;
-  NormalEquations all;
-  std::vector<PartEquations> parts;
-  KeptSystems kept;
   problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
   if (problem.rows.yields) {
     // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
-    const ArmSolution first = solve(problem, state, 50, last_change, &kept);
+    const ArmSolution first = solve(problem, state, most_iterations, last_change);
     result.iterations += first.iterations;
     state = first.state;
     const KnownArm arm{{state.axes, state.reference}, moves, state.up_gravity};
     ArmRows tied = make_rows(recording, segmentation, resolution, result.cutoff, result.gyroscope_used, &arm);
     if (!tied.stretches.empty()) {
       problem.rows = std::move(tied);
-      kept.forget();
       result.samples = problem.rows.samples;
       name_kinds(problem.rows, joints);
       problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
       problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
     }
   }
-  const int first_cut = problem.rows.ties.empty() ? 1 : std::clamp(options.max_passes / 2, 1, most_ties);
-  ArmResiduals now;
-  InflationSearch search;
-  MirrorSearch mirror;
-  std::vector<bool> mirrored(static_cast<std::size_t>(joints), false);
-  int since = 0;  // the pass after the columns last changed
-  int last = options.max_passes;
-  for (int pass = 0; pass < last; ++pass) {
-    ArmSolution solution = solve(problem, state, 50, last_change, &kept);
-    result.iterations += solution.iterations;
-    const ArmState former = state;
-    state = solution.state;
-    parts = std::move(solution.parts);
-    const MarginalEquations data = marginal(problem, parts);
-    all = data.equations;
-    problem.offsets = data.offsets;
-    const NormalEquations prior = linearise_prior(problem, state);
-    information = all.information + prior.information;
-    covariance = ScaledInformation(information, 1e-15).inverse();
-    now = residuals(problem, state, &kept);
-    const Eigen::VectorXd gradient = all.gradient + prior.gradient;
-    const double left = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));  // to the minimum, in standard deviations
-    const int cutting = since == 0 ? first_cut : since + 1;
-    result.unsettled = std::max(left, largest_step(former, state, problem.layout, covariance));
-    result.converged = pass > cutting + 1 && result.unsettled < still;
-    // The first pass's noise is a guess, or of other columns, and nothing follows from its scores; nor any more from the last's.
-    const double ratio = pass > since && !result.converged ? score_ratio(problem, parts, covariance) : 1.0;
-    const bool wrong = pass == cutting + passes_that_cut && problem.noise.inflation * ratio > disagreement;
-    if ((result.converged || wrong || pass + 1 == last) && pass > since &&
-        claim_evident_encoder_errors(problem, state, moves, options)) {
-      search = InflationSearch();
-      kept.forget();
-      result.converged = false;
-      since = pass + 1;
-      last = since + options.max_passes;
-      continue;
-    }
-    if (result.converged || pass + 1 == last) {
-      if (problem.layout.points) {
-        mirror = search_mirrored(problem, state, covariance, solution.cost, mirrored);
-        if (mirror.better) {
-          mirrored[mirror.joint] = true;
-          state = mirror.better->state;
-          kept.forget();
-          since = pass + 1;
-          last = since + options.max_passes;
-          continue;
-        }
-      }
-      break;
-    }
-    // What follows changes rows and weights, which only another pass takes in.
-    if (pass < first_cut && !problem.rows.ties.empty()) {
-      retie(problem.rows, problem.offsets);
-      kept.forget();
-    }
-    problem.noise.encoder.clear();  // of these rows at this state
-    const double inflation = pass > since ? search.next(problem.noise.inflation, ratio) : 1.0;
-    if (pass >= cutting && pass < cutting + passes_that_cut) {
-      const Index cut = cut_knocks(problem.rows, now.whitened, now.dwells_normalized);
-      result.outliers += cut;
-      if (cut > 0) {
-        kept.forget();
-        now = residuals(problem, state);
-      }
-    }
-    const ArmNoise before = std::move(problem.noise);
-    // A few rests have hardly more equations than there are columns, most of which what is known of the sensor settles.
-    const double fitted = problem.layout.points ? static_cast<double>(problem.layout.columns) : (covariance * all.information).trace();
-    problem.noise = estimate_noise(problem.rows, now.moving, now.dwells, now.dwell_variance, fitted, inflation,
-                                   encoder_covariances(problem, state), pass > since ? &before : nullptr,
-                                   pass > std::max(since + passes_to_settle, cutting + passes_that_cut - 1));
-  }
-  result.noise_inflation = problem.noise.inflation;
-  double squares = now.dwells_normalized.squaredNorm();
-  result.rows = problem.rows.equations();
-  for (const Eigen::MatrixXd& whitened : now.whitened) {
-    squares += problem.noise.inflation * whitened.squaredNorm();
+  ArmFit fit{std::move(problem), std::move(state)};
+  const std::vector<bool> ambiguous = settle_among_mirrored(fit, moves, options);
+  result.iterations += fit.iterations;
+  result.outliers = fit.outliers;
+  result.unsettled = fit.unsettled;
+  result.converged = fit.converged;
+  result.noise_inflation = fit.problem.noise.inflation;
+  double squares = fit.now.dwells_normalized.squaredNorm();
+  result.rows = fit.problem.rows.equations();
+  for (const Eigen::MatrixXd& whitened : fit.now.whitened) {
+    squares += fit.problem.noise.inflation * whitened.squaredNorm();
   }
   result.normalized_rms = std::sqrt(squares / static_cast<double>(result.rows));
 
-  result.covariance = covariance;
-  if (problem.prior.gravity_known) {
-    all += linearise_gravity(problem.layout, state, problem.prior.gravity, problem.prior.gravity_std);
+  result.covariance = fit.covariance;
+  if (fit.problem.prior.gravity_known) {
+    fit.data += linearise_gravity(fit.problem.layout, fit.state, fit.problem.prior.gravity, fit.problem.prior.gravity_std);
   }
-  const Identifiability seen = identifiability(all, covariance, state, problem.layout);
+  const Identifiability seen = identifiability(fit.data, fit.covariance, fit.state, fit.problem.layout);
   result.rank = seen.rank;
   result.condition_number = seen.condition_number;
   result.weak = seen.weak;
-  const std::vector<std::string> names = parameter_names(state, problem.layout);
-  const Eigen::VectorXd value = values(state, problem.layout);
-  for (Index k = 0; k < problem.layout.columns; ++k) {
-    result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std::sqrt(std::max(0.0, covariance(k, k))), seen.data_std[k]});
+  const std::vector<std::string> names = parameter_names(fit.state, fit.problem.layout);
+  const Eigen::VectorXd value = values(fit.state, fit.problem.layout);
+  for (Index k = 0; k < fit.problem.layout.columns; ++k) {
+    result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std::sqrt(std::max(0.0, fit.covariance(k, k))), seen.data_std[k]});
   }
-  result.stretches = hold_out(problem, state, parts, information, now);
+  result.stretches = hold_out(fit.problem, fit.state, fit.parts, fit.information, fit.now);
 
-  result.clock_offset = state.clock_offset;
-  result.clock_rate = state.clock_rate;
-  result.encoder_gain = state.encoder_gain;
-  result.eccentricity = state.eccentricity.transpose();
-  result.gyroscope_bias = state.gyroscope_bias;
-  result.gyroscope_matrix = state.gyroscope_matrix;
-  result.gyroscope_delay = state.gyroscope_delay;
+  result.clock_offset = fit.state.clock_offset;
+  result.clock_rate = fit.state.clock_rate;
+  result.encoder_gain = fit.state.encoder_gain;
+  result.eccentricity = fit.state.eccentricity.transpose();
+  result.gyroscope_bias = fit.state.gyroscope_bias;
+  result.gyroscope_matrix = fit.state.gyroscope_matrix;
+  result.gyroscope_delay = fit.state.gyroscope_delay;
 
-  const double gravity_std = gravity_direction_std(problem, state, all, seen, covariance, options.sensor_is_known);
-  const double rest_rms = now.dwells.rows() > 0 ? std::sqrt(now.dwells.leftCols<3>().cwiseAbs2().mean()) : 0.0;
-  write_lines(result.joints, problem.layout, state, covariance,
-              {gravity_std, options.sensor_is_known, seen.data_std, rounding_share(problem.rows, resolution), mirror.ambiguous,
+  const double gravity_std = gravity_direction_std(fit.problem, fit.state, fit.data, seen, fit.covariance, options.sensor_is_known);
+  const double rest_rms = fit.now.dwells.rows() > 0 ? std::sqrt(fit.now.dwells.leftCols<3>().cwiseAbs2().mean()) : 0.0;
+  write_lines(result.joints, fit.problem.layout, fit.state, fit.covariance,
+              {gravity_std, options.sensor_is_known, seen.data_std, rounding_share(fit.problem.rows, resolution), ambiguous,
                rest_rms});
-  write_sensor(result.joints, problem.layout, state, covariance);
+  write_sensor(result.joints, fit.problem.layout, fit.state, fit.covariance);
   result.joints.converged = result.converged;
   result.joints.unseen.clear();
   for (const WeakCombination& weak : result.weak) {
     result.joints.unseen.push_back(weak.description);
   }
-  record_signals(result.joints, segmentation, problem, now);
+  record_signals(result.joints, segmentation, fit.problem, fit.now);
   return result;
 }
 

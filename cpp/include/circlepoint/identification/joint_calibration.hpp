@@ -46,7 +46,7 @@ struct JointCalibrationOptions {
   bool use_resting_encoders = true;      ///< correct for joints that yield
   int max_passes = 12;
   std::vector<JointType> joint_types;    ///< empty: all revolute
-  Eigen::VectorXd encoder_resolution;    ///< (n) rad or m a count; empty: the smallest step seen, none in still poses
+  Eigen::VectorXd encoder_resolution;    ///< (n) rad or m a count; empty: what steps are multiples of, none in still poses
   std::optional<Eigen::VectorXd> reference_configuration;  ///< (n) rad or m; absent: the dwell that serves most joints
 };
 

@@ -16,8 +16,8 @@
 // not determine is named: joints that hardly move, and the combinations of parameters along the information matrix's
 // weakest directions. For every stretch the residual is also given by an estimate that did not see it (hold-out).
 //
-// Rests without any motion, at least three, show directions only: the lines' points and what only motion shows are then no
-// parameters, and no line is complete. Fails (NotIdentifiable) where there is not even that. A joint that never moves is a result without a line, and so is one whose line stays
+// Rests without any motion show directions only: the lines' points and what only motion shows are then no parameters, and no line is
+// complete. Fails (NotIdentifiable) where there are too few even of them. A joint that never moves is a result without a line, as is one
 // vaguer than 20 mrad or 20 mm; where no start leads to a fit, the single-joint results stand alone.
 
 #include <Eigen/Core>
@@ -63,7 +63,7 @@ struct WholeArmOptions {
   unsigned threads = 0;                 ///< 0: as many as the machine has
   double min_travel = 0.02;             ///< rad or m: joints that travel less have no line
   std::vector<JointType> joint_types;   ///< empty: all revolute
-  Eigen::VectorXd encoder_resolution;   ///< (n) rad or m a count; empty: the smallest step seen, none in still poses
+  Eigen::VectorXd encoder_resolution;   ///< (n) rad or m a count; empty: what steps are multiples of, none in still poses
   std::optional<Eigen::VectorXd> reference_configuration;  ///< (n) rad or m
 };
 
