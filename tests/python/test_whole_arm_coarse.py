@@ -134,6 +134,21 @@ def test_a_motion_that_drowns_in_its_counts_is_named():
         assert "the rounding of its encoder's counts" in estimate.reason
 
 
+def test_fast_motions_over_long_arcs_keep_their_harmonics():
+    chain = chain_of(LINES)
+    squares = []
+    for seed in range(6):  # at 4.8 Hz, which rounding alone asks for, squares are above 5
+        start = START + np.random.default_rng(seed).uniform(0.0, 2 * np.pi / 1024, 3)
+        pieces = [cp.RaisedCosine(joint=joint, span=2.4, frequency=1.0, duration=8.0) for joint in range(3)]
+        motion = cp.joint_trajectory(start, pieces, 500.0, 0.6)
+        simulation = cp.SimulationOptions(noise_std=0.01, encoder_counts_per_revolution=np.full(3, 1024.0), seed=seed)
+        log = cp.simulate(chain, UP, cp.draw_accelerometer(load_sensor("qa700"), seed), motion, simulation)
+        error, covariance, result = estimate(log, chain, 1024)
+        squares.append(error @ np.linalg.solve(covariance, error) / error.size)
+        assert result.cutoff > 7.0
+    assert np.mean(squares) < 2.0
+
+
 def test_exact_encoders_are_not_taken_for_coarse_ones_by_the_first_steps_of_a_motion():
     chain = chain_of(LINES)
     pieces = [cp.RaisedCosine(joint=joint, span=2.4, frequency=1.0, duration=8.0) for joint in range(3)]

@@ -157,7 +157,8 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
 
 // The motions between dwells, by their peak speeds and travels.
 struct MotionsSeen {
-  double frequency = 0.0;     // Hz, the highest of any
+  double frequency = 0.0;      // Hz, the highest of any
+  double needed = 0.0;         // Hz: four times that, or eight times where an arc is long and the readings have harmonics
   Eigen::ArrayXd travel;       // (n) the longest of each joint
   Eigen::ArrayXd acceleration; // (n) rms, the strongest of each joint
 };
@@ -165,7 +166,7 @@ struct MotionsSeen {
 MotionsSeen motions_seen(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution) {
   constexpr double least_travel = 0.05;  // rad or m
   const auto window = std::max<Index>(1, static_cast<Index>(std::lround(0.1 * recording.sample_rate)));
-  MotionsSeen seen{0.0, Eigen::ArrayXd::Zero(recording.joints()), Eigen::ArrayXd::Zero(recording.joints())};
+  MotionsSeen seen{0.0, 0.0, Eigen::ArrayXd::Zero(recording.joints()), Eigen::ArrayXd::Zero(recording.joints())};
   const auto consider = [&](const IndexRange& range) {
     if (range.size() <= 3 * window) {
       return;
@@ -177,7 +178,9 @@ MotionsSeen motions_seen(const Recording& recording, const Segmentation& segment
         const Index count = range.size() - window;
         const double farthest = (position.tail(count) - position.head(count)).cwiseAbs().maxCoeff() - resolution[joint];
         const double fastest = std::max(0.0, farthest) * recording.sample_rate / static_cast<double>(window);
-        seen.frequency = std::max(seen.frequency, fastest / (std::numbers::pi * travel));
+        const double frequency = fastest / (std::numbers::pi * travel);
+        seen.frequency = std::max(seen.frequency, frequency);
+        seen.needed = std::max(seen.needed, 4.0 * frequency * (1.0 + std::min(1.0, travel * travel)));
         seen.travel[joint] = std::max(seen.travel[joint], travel);
         seen.acceleration[joint] = std::max(seen.acceleration[joint], std::numbers::sqrt2 * fastest * fastest / travel);
       }
@@ -246,7 +249,6 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   constexpr double widest = 12.0;
   constexpr double narrowest = 4.0;
   const double harmonics = are_coarse(resolution) ? 10.0 : 20.0;
-  constexpr double fewest_harmonics = 4.0;
   constexpr double tolerated = 0.1;        // rad/s^2 of differentiated counts
   constexpr double tolerated_share = 0.1;  // of a joint's acceleration
   constexpr double main_travel = 0.2;      // of the longest travel: less is not what the recording was made for
@@ -257,12 +259,13 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   }
   const double coarsest = resolution.size() > 0 ? resolution.maxCoeff() : 0.0;
   if (coarsest > 0.0) {
-    cutoff = std::min(cutoff, std::max(narrowest, std::pow(tolerated / rounding_at_one_hertz(coarsest, recording.sample_rate), 0.4)));
+    const double clear = std::pow(tolerated / rounding_at_one_hertz(coarsest, recording.sample_rate), 0.4);
+    cutoff = std::min(cutoff, std::max({narrowest, seen.needed, clear}));
   }
   for (Index joint = 0; joint < resolution.size(); ++joint) {
     if (resolution[joint] > 0.0 && seen.travel[joint] > main_travel * seen.travel.maxCoeff()) {
-      const double clear = tolerated_share * seen.acceleration[joint] / rounding_at_one_hertz(resolution[joint], recording.sample_rate);
-      cutoff = std::min(cutoff, std::max(fewest_harmonics * seen.frequency, std::pow(clear, 0.4)));
+      const double share = tolerated_share * seen.acceleration[joint] / rounding_at_one_hertz(resolution[joint], recording.sample_rate);
+      cutoff = std::min(cutoff, std::max(seen.needed, std::pow(share, 0.4)));
     }
   }
   return cutoff;

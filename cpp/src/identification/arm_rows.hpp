@@ -96,8 +96,8 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
 
 // Hz: twenty times the fastest motion's frequency, which passes all a rigid arm's readings hold, or ten times with coarse encoders, whose
 // noise rises faster than what the readings tell; not more than 12, above which arms bend and ring (the paper takes 10), nor less than 4;
-// less where coarse counts, differentiated twice, would drown the readings, and as little as four times the motion's frequency where they
-// would drown a weak motion.
+// less where coarse counts, differentiated twice, would drown the readings or a weak motion, but four times the motion's frequency, eight
+// times where arcs are long.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
 // (n) The share of its counts' rounding in the variance of each joint's acceleration, where it moves: what lets lines shrink towards
