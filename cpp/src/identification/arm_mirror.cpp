@@ -15,7 +15,7 @@ constexpr double short_travel = 1.2;    // rad: over more, no other line fits by
 constexpr double least_turn = 0.02;     // rad between the two, below which they are one
 constexpr double same = 6.0;            // standard deviations between two that are one
 constexpr double told_apart = 16.0;     // by which the sum of squares must be larger: four standard deviations
-constexpr double hopeless = 3.0;        // times the sum of squares, with the noise as it is
+constexpr double hopeless = 10.0;       // times the sum of squares, with the noise as it is
 
 // (n) The mean of the joints' positions while the joint moves.
 Eigen::VectorXd where_it_moves(const ArmRows& rows, Index joint, const Eigen::VectorXd& otherwise) {

@@ -13,6 +13,7 @@ constexpr double vague_direction = 0.02;    // rad, and
 constexpr double vague_point = 0.02;        // m: a line less certain than this is not given
 constexpr double vague_gravity = 0.005;     // rad its direction may stay open
 constexpr double unknown_direction = 0.05;  // rad: beyond, a linearised covariance means little
+constexpr double unknown_place = 1.0;       // m: beyond, as if rests alone were there
 constexpr double told_apart = 4.0;          // standard deviations
 constexpr double drowned = 0.015;           // of the acceleration's variance, by its counts' rounding
 constexpr double unexplained = 0.015;       // of gravity, that still poses may differ from the model by
@@ -106,6 +107,11 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
                       "over 150 degrees for 6 s";
       } else if (seen.gravity_std < unknown_direction && direction_std < unknown_direction) {
         mine.vague = mine.axis;
+        if (!(mine.vague->point_std() < unknown_place)) {
+          mine.vague->covariance.rightCols<2>().setZero();
+          mine.vague->covariance.bottomRows<2>().setZero();
+          mine.vague->covariance.diagonal().tail<2>().setConstant(std::numeric_limits<double>::infinity());
+        }
       }
       mine.axis.reset();
     }

@@ -103,14 +103,17 @@ void settle(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& 
 
 double misfit(const ArmFit& fit) {
   const ArmProblem& problem = fit.problem;
-  double logarithms = 0.0;
+  const double inflation = problem.noise.inflation;  // for what motions disagree by, not for how they scatter
+  double squares = fit.now.dwells_normalized.squaredNorm();
+  double logarithms = 0.5 * (fit.now.dwell_variance.rowwise() + problem.noise.dwell_excess.cwiseAbs2().transpose()).array().log().sum();
   for (std::size_t i = 0; i < problem.rows.stretches.size(); ++i) {
-    logarithms += log_root_determinant(problem.noise, problem.rows, i);
+    const Eigen::MatrixXd& whitened = fit.now.whitened[i];
+    squares += inflation * whitened.squaredNorm();
+    logarithms += log_root_determinant(problem.noise, problem.rows, i) - 0.5 * static_cast<double>(whitened.size()) * std::log(inflation);
   }
-  logarithms += 0.5 * (fit.now.dwell_variance.rowwise() + problem.noise.dwell_excess.cwiseAbs2().transpose()).array().log().sum();
   const auto left = static_cast<double>(problem.rows.equations());
   const double all = left + static_cast<double>(fit.outliers * problem.rows.channels);
-  return (fit.data.cost + 2.0 * logarithms) * all / left + linearise_prior(problem, fit.state).cost;
+  return (squares + 2.0 * logarithms) * all / left + linearise_prior(problem, fit.state).cost;
 }
 
 }  // namespace circlepoint

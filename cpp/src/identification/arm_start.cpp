@@ -12,7 +12,8 @@ namespace {
 
 constexpr Index rows_for_starting = 600;
 constexpr double noise = 0.3;           // m/s^2, by which all is weighted
-constexpr double explained = 0.15;      // m/s^2 rms: what bias and vibration may leave of the right arm
+constexpr double explained = 0.15;      // m/s^2 rms: what bias and vibration may leave of the right arm, and
+constexpr double explained_share = 0.02;  // of what the readings vary by
 constexpr int enough_repeats = 3;       // of the smallest cost
 constexpr int many_repeats = 12;        // where it explains little
 
@@ -43,6 +44,26 @@ ArmRows thin(const ArmRows& rows) {
     thinned.dwells.push_back(rows.dwells[i]);
   }
   return thinned;
+}
+
+// m/s^2, standard deviation of the rows' readings.
+double variation(const ArmRows& rows) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  double squares = 0.0;
+  Index count = 0;
+  const auto add = [&](const auto& readings) {
+    sum += readings.colwise().sum();
+    squares += readings.squaredNorm();
+    count += readings.rows();
+  };
+  for (const MovingStretch& stretch : rows.stretches) {
+    add(stretch.reading.leftCols<3>());
+  }
+  for (const DwellRow& dwell : rows.dwells) {
+    add(dwell.reading.head<3>().transpose());
+  }
+  const double all = std::max(1.0, static_cast<double>(count));
+  return std::sqrt(std::max(0.0, (squares - sum.squaredNorm() / all) / (3.0 * all)));
 }
 
 Eigen::Vector3d random_direction(RandomSource& random) {
@@ -79,7 +100,7 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
 
   double best_cost = std::numeric_limits<double>::infinity();
   int repeats = 0;
-  const double well = std::pow(explained / noise, 2) * static_cast<double>(small.rows.equations());
+  const double well = std::pow(std::min(explained, explained_share * variation(small.rows)) / noise, 2) * static_cast<double>(small.rows.equations());
   for (int trial = 0; trial < random_starts && repeats < (best_cost < well ? enough_repeats : many_repeats); ++trial) {
     RandomSource random(derive_seed(seed, static_cast<std::uint64_t>(trial)));
     ArmState start = known_state;
