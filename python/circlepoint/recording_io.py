@@ -362,7 +362,7 @@ def _require_one_row_a_pose(table: LogTable, name: str, numbers: FloatArray) -> 
         if first.setdefault(number, row) != row:
             raise table.error(
                 f"column `{name}` is {number:.12g} again: keep one row a pose, the mean of what the one sensor on the "
-                f"end-point read at rest; of a log, name its time column in a column map (`t:`)",
+                f"end-point read at rest; if this is a log, name its time column in a column map (`t:`)",
                 row,
             )
 

@@ -98,14 +98,14 @@ def test_moves_of_a_few_dozen_counts_and_steps_of_acceleration_are_neither_knock
     assert max(predicted) < 5e-4
 
 
-def weak_motion(counts, seed):
-    """Return a log at 1,024 counts in which all joints move together by so many of them, and its estimate."""
+def weak_motion(counts, seed, up=UP):
+    """Return the estimate of a log at 1,024 counts in which all joints move together by so many of them."""
     amplitude = np.full(3, 0.5 * counts * 2 * np.pi / 1024)
     motion = cp.joint_trajectory(
         START + 3e-4, [cp.MultiJointMotion(duration=40.0, amplitude=amplitude, seed=seed)], 200.0, 0.6
     )
     simulation = cp.SimulationOptions(noise_std=0.01, encoder_counts_per_revolution=np.full(3, 1024.0), seed=seed)
-    log = cp.simulate(chain_of(LINES), UP, cp.draw_accelerometer(load_sensor("qa700"), seed), motion, simulation)
+    log = cp.simulate(chain_of(LINES), up, cp.draw_accelerometer(load_sensor("qa700"), seed), motion, simulation)
     options = cp.WholeArmOptions()
     options.sensor = load_sensor("qa700")
     options.reference_configuration = START
@@ -124,6 +124,42 @@ def test_motions_of_a_few_dozen_counts_shrink_no_line_and_mirror_none(counts, se
         error = cp.local_coordinates(estimate.axis.screw.line, axis.line)
         assert np.abs(error / np.sqrt(np.diag(estimate.axis.covariance))).max() < 4.0
     assert given >= 2
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_base_joint_along_gravity_that_moves_little_is_not_given_reversed(seed):
+    vertical = np.array(chain_of(LINES).axes[0].line.direction)
+    result = weak_motion(25, seed, up=vertical * cp.STANDARD_GRAVITY)
+    base = result.joints.joints[0]
+    assert base.axis is None or np.dot(base.axis.screw.line.direction, vertical) > 0.9
+    assert base.vague is None or np.dot(base.vague.screw.line.direction, vertical) > 0.9
+
+
+def test_a_motion_slower_than_a_count_in_a_tenth_of_a_second_is_no_error():
+    amplitude = np.full(3, 0.15)
+    pieces = [cp.MultiJointMotion(duration=40.0, amplitude=amplitude, seed=2, frequency_min=0.05, frequency_max=0.1)]
+    motion = cp.joint_trajectory(START + 3e-4, pieces, 200.0, 0.6)
+    simulation = cp.SimulationOptions(noise_std=0.01, encoder_counts_per_revolution=np.full(3, 256.0), seed=1)
+    log = cp.simulate(chain_of(LINES), UP, cp.AccelerometerModel(), motion, simulation)
+    options = cp.WholeArmOptions()
+    options.encoder_resolution = np.full(3, 2 * np.pi / 256)
+    assert cp.calibrate_whole_arm(log, cp.segment(log), options).cutoff >= 1.0
+
+
+def test_a_step_across_a_gap_is_no_count():
+    chain = chain_of(LINES)
+    logs = []
+    for k in range(2):
+        pieces = [cp.RaisedCosine(joint=joint, span=1.5, frequency=0.5, duration=6.0) for joint in range(2)]
+        motion = cp.joint_trajectory(START + np.array([0.0, 0.0, 0.7 * k]), pieces, 200.0, 0.6)
+        sensor = cp.draw_accelerometer(load_sensor("qa700"), 1)
+        logs.append(cp.simulate(chain, UP, sensor, motion, cp.SimulationOptions(noise_std=0.01, seed=k)))
+    log = cp.concatenate(logs)
+    options = cp.WholeArmOptions()
+    options.sensor = load_sensor("qa700")
+    result = cp.calibrate_whole_arm(log, cp.segment(log), options)
+    assert result.cutoff > 9.0
+    assert all(estimate.axis is not None for estimate in result.joints.joints[:2])
 
 
 def test_a_motion_that_drowns_in_its_counts_is_named():

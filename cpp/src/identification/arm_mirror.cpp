@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "arm_solve.hpp"
@@ -60,7 +61,33 @@ Line mirrored(const ArmState& state, Index joint, const Eigen::VectorXd& positio
   return {direction, moment.cross(direction)};
 }
 
-double apart(const Line& one, const Line& other) { return one.direction.cross(other.direction).norm(); }
+// Of directions, 2 where they are opposite: an axis along gravity is its mirror image reversed.
+double apart(const Line& one, const Line& other) { return (one.direction - other.direction).norm(); }
+
+// From the joint's mirrored line; nothing where that leads back or explains far less.
+std::optional<ArmFit> mirrored_fit(const ArmFit& fit, const ArmProblem& fresh, std::size_t i, const std::vector<bool>& moves,
+                                   const WholeArmOptions& options) {
+  const Line& before = fit.state.axes[i].line;
+  ArmState start = fit.state;
+  const auto joint = static_cast<Index>(i);
+  start.axes[i].line = mirrored(fit.state, joint, where_it_moves(fit.problem.rows, joint, fit.state.reference));
+  if (apart(start.axes[i].line, before) < least_turn) {
+    return std::nullopt;
+  }
+  const ArmSolution first = solve(fit.problem, start, most_iterations);
+  if (apart(first.state.axes[i].line, before) < least_turn || first.cost > hopeless * fit.data.cost) {
+    return std::nullopt;
+  }
+  ArmFit rival{fresh, first.state};
+  rival.problem.layout = fit.problem.layout;  // encoders' errors that were found have columns for both
+  rival.problem.prior = fit.problem.prior;
+  settle(rival, moves, options);
+  const double std = std::sqrt(rival.covariance.diagonal().segment<2>(rival.problem.layout.lines[i]).maxCoeff());
+  if (apart(rival.state.axes[i].line, before) < std::max(least_turn, same * std)) {
+    return std::nullopt;
+  }
+  return rival;
+}
 
 }  // namespace
 
@@ -76,30 +103,27 @@ std::vector<bool> settle_among_mirrored(ArmFit& fit, const std::vector<bool>& mo
   }
   const ArmProblem fresh = candidates.empty() ? ArmProblem{} : fit.problem;
   settle(fit, moves, options);
-  for (const std::size_t i : candidates) {
-    const auto joint = static_cast<Index>(i);
-    ArmState start = fit.state;
-    start.axes[i].line = mirrored(fit.state, joint, where_it_moves(fit.problem.rows, joint, fit.state.reference));
-    const Line before = fit.state.axes[i].line;
-    if (apart(start.axes[i].line, before) < least_turn) {
-      continue;
+  bool better = true;
+  for (std::size_t round = 0; better && round <= candidates.size(); ++round) {
+    better = false;
+    ambiguous.assign(joints, false);
+    for (const std::size_t i : candidates) {
+      std::optional<ArmFit> rival = mirrored_fit(fit, fresh, i, moves, options);
+      if (!rival) {
+        continue;
+      }
+      const double worse = misfit(*rival) - misfit(fit);
+      const int iterations = fit.iterations + rival->iterations;
+      if (worse < 0.0) {
+        fit = std::move(*rival);
+        better = true;
+      }
+      fit.iterations = iterations;
+      if (better) {
+        break;  // the others' rivals were the other fit's
+      }
+      ambiguous[i] = worse < told_apart;
     }
-    const ArmSolution first = solve(fit.problem, start, most_iterations);
-    if (apart(first.state.axes[i].line, before) < least_turn || first.cost > hopeless * fit.data.cost) {
-      continue;
-    }
-    ArmFit rival{fresh, first.state};
-    settle(rival, moves, options);
-    const double std = std::sqrt(rival.covariance.diagonal().segment<2>(rival.problem.layout.lines[i]).maxCoeff());
-    if (apart(rival.state.axes[i].line, before) < std::max(least_turn, same * std)) {
-      continue;
-    }
-    rival.iterations += fit.iterations;
-    const double worse = misfit(rival) - misfit(fit);
-    if (worse < 0.0) {
-      std::swap(fit, rival);
-    }
-    ambiguous[i] = std::abs(worse) < told_apart;
   }
   return ambiguous;
 }

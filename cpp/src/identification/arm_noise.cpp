@@ -88,7 +88,8 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
       noise.kinds.push_back(settled ? start : fit_beside_encoders(moving, members, encoders, start, filter));
     } else {
       const bool hold = settled && before != nullptr;
-      noise.kinds.push_back(fit_motion_noise(moving, members, rows.channels, filter, hold ? &before->kinds[static_cast<std::size_t>(kind)] : nullptr));
+      const MotionNoise* held = hold ? &before->kinds[static_cast<std::size_t>(kind)] : nullptr;
+      noise.kinds.push_back(fit_motion_noise(moving, members, rows.channels, filter, held));
     }
     scale(noise.kinds.back(), total / std::max(total - parameters, 1.0) * repetition_factor(rows, members) * inflation);
   }

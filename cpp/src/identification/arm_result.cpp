@@ -80,13 +80,13 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
       std::array<char, 200> text{};
       std::snprintf(text.data(), text.size(), "the rounding of its encoder's counts is %.0f %% of the acceleration it shows",
                     100.0 * std::min(1.0, std::sqrt(seen.rounding[i])));
-      mine.reason = std::string(text.data()) + ", so its line would come out too near to the sensor; move it farther or faster";
+      mine.reason = std::string(text.data()) + ", so its line cannot be told; move it farther or faster";
       mine.axis.reset();
       continue;
     }
     if (!seen.ambiguous.empty() && seen.ambiguous[at]) {
       mine.reason = "another line, with its axis mirrored at the horizontal plane, explains its short motion about as well; move it "
-                    "farther, over 60 degrees or more";
+                    "farther, over 70 degrees or more";
       mine.axis.reset();
       continue;
     }

@@ -40,7 +40,8 @@ std::vector<MovingAlone> moving_alone(const Segmentation& segmentation, const In
     const Index middle = (motion.samples.begin + motion.samples.end) / 2;
     if (range.begin <= middle && middle < range.end) {
       const auto beside = static_cast<Index>(0.5 * longest_rest * rate);
-      found.push_back({{std::max(range.begin, motion.samples.begin - beside), std::min(range.end, motion.samples.end + beside)}, motion.joint});
+      const IndexRange around{std::max(range.begin, motion.samples.begin - beside), std::min(range.end, motion.samples.end + beside)};
+      found.push_back({around, motion.joint});
     }
   }
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -251,6 +252,7 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   const double harmonics = are_coarse(resolution) ? 10.0 : 20.0;
   constexpr double tolerated = 0.1;        // rad/s^2 of differentiated counts
   constexpr double tolerated_share = 0.1;  // of a joint's acceleration
+  constexpr double slowest = 1.0;          // Hz
   constexpr double main_travel = 0.2;      // of the longest travel: less is not what the recording was made for
   const MotionsSeen seen = motions_seen(recording, segmentation, resolution);
   double cutoff = std::min(widest, 0.2 * recording.sample_rate);
@@ -265,7 +267,7 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   for (Index joint = 0; joint < resolution.size(); ++joint) {
     if (resolution[joint] > 0.0 && seen.travel[joint] > main_travel * seen.travel.maxCoeff()) {
       const double share = tolerated_share * seen.acceleration[joint] / rounding_at_one_hertz(resolution[joint], recording.sample_rate);
-      cutoff = std::min(cutoff, std::max(seen.needed, std::pow(share, 0.4)));
+      cutoff = std::min(cutoff, std::max({slowest, seen.needed, std::pow(share, 0.4)}));
     }
   }
   return cutoff;

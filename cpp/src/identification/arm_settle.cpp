@@ -113,7 +113,8 @@ double misfit(const ArmFit& fit) {
   }
   const auto left = static_cast<double>(problem.rows.equations());
   const double all = left + static_cast<double>(fit.outliers * problem.rows.channels);
-  return (squares + 2.0 * logarithms) * all / left + linearise_prior(problem, fit.state).cost;
+  const double prior = linearise_prior(problem, fit.state).cost + problem.offsets.dot(problem.rows.offset_information * problem.offsets);
+  return (squares + 2.0 * logarithms) * all / left + prior;
 }
 
 }  // namespace circlepoint

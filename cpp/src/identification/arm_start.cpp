@@ -100,7 +100,8 @@ ArmStart find_start(const ArmProblem& problem, const ArmState& known_state, cons
 
   double best_cost = std::numeric_limits<double>::infinity();
   int repeats = 0;
-  const double well = std::pow(std::min(explained, explained_share * variation(small.rows)) / noise, 2) * static_cast<double>(small.rows.equations());
+  const double rms = std::min(explained, explained_share * variation(small.rows));
+  const double well = std::pow(rms / noise, 2) * static_cast<double>(small.rows.equations());
   for (int trial = 0; trial < random_starts && repeats < (best_cost < well ? enough_repeats : many_repeats); ++trial) {
     RandomSource random(derive_seed(seed, static_cast<std::uint64_t>(trial)));
     ArmState start = known_state;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "circlepoint/conditioning/butterworth.hpp"
 #include "circlepoint/conditioning/differentiate.hpp"
@@ -70,28 +71,35 @@ namespace {
 
 // The count that a joint's steps from one sample to the next are multiples of, and by which it moves from one value it holds to another,
 // as no smooth motion does; 0: there is none.
-double count_of(const Eigen::Ref<const Eigen::VectorXd>& positions) {
+double count_of(const Recording& recording, Index joint) {
   constexpr double same = 1e-8;
   constexpr double few = 10.0;       // counts a step, of which rounding in a file leaves whole numbers
   constexpr double off = 0.1;        // of a count
   constexpr double most = 0.9;       // of the small steps
-  const Eigen::ArrayXd steps = (positions.tail(positions.size() - 1) - positions.head(positions.size() - 1)).array().abs();
-  const auto holds = [&](Index k) { return k < 0 || k >= steps.size() || steps[k] <= same; };
+  std::vector<Eigen::ArrayXd> of_spans;
   double smallest = std::numeric_limits<double>::infinity();
-  for (const double step : steps) {
-    smallest = step > same ? std::min(smallest, step) : smallest;
+  for (const IndexRange& span : recording.spans) {
+    const auto positions = recording.joint_positions.col(joint).segment(span.begin, span.size()).array();
+    const Index count = std::max<Index>(1, span.size()) - 1;
+    of_spans.emplace_back((positions.tail(count) - positions.head(count)).abs());
+    for (const double step : of_spans.back()) {
+      smallest = step > same ? std::min(smallest, step) : smallest;
+    }
   }
   Index small = 0;
   Index whole = 0;
   bool from_hold_to_hold = false;
-  for (Index k = 0; k < steps.size(); ++k) {
-    if (steps[k] <= same || steps[k] >= few * smallest) {
-      continue;
+  for (const Eigen::ArrayXd& steps : of_spans) {
+    const auto holds = [&](Index k) { return k >= 0 && k < steps.size() && steps[k] <= same; };
+    for (Index k = 0; k < steps.size(); ++k) {
+      if (steps[k] <= same || steps[k] >= few * smallest) {
+        continue;
+      }
+      const double counts = steps[k] / smallest;
+      ++small;
+      whole += std::abs(counts - std::round(counts)) < off ? 1 : 0;
+      from_hold_to_hold = from_hold_to_hold || (counts < 1.0 + off && holds(k - 1) && holds(k + 1));
     }
-    const double counts = steps[k] / smallest;
-    ++small;
-    whole += std::abs(counts - std::round(counts)) < off ? 1 : 0;
-    from_hold_to_hold = from_hold_to_hold || (counts < 1.0 + off && holds(k - 1) && holds(k + 1));
   }
   return from_hold_to_hold && static_cast<double>(whole) > most * static_cast<double>(small) ? smallest : 0.0;
 }
@@ -103,9 +111,9 @@ Eigen::VectorXd encoder_resolution(const Recording& recording, const JointCalibr
     return options.encoder_resolution;
   }
   Eigen::VectorXd resolution = Eigen::VectorXd::Zero(recording.joints());
-  if (!recording.is_static() && recording.samples() > 1) {  // from one still pose to the next a joint makes many steps
+  if (!recording.is_static()) {  // from one still pose to the next a joint makes many steps
     for (Index joint = 0; joint < recording.joints(); ++joint) {
-      resolution[joint] = count_of(recording.joint_positions.col(joint));
+      resolution[joint] = count_of(recording, joint);
     }
   }
   return resolution;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <thread>
 
-#include "arm_encoder_errors.hpp"
 #include "arm_layout.hpp"
 #include "arm_mirror.hpp"
 #include "arm_report.hpp"
@@ -49,8 +48,9 @@ void validate(const Recording& recording, const WholeArmOptions& options) {
           "clock_rate cannot be estimated while clock_offset is fixed; fix both or neither");
   for (Index joint = 0; joint < options.encoder_resolution.size(); ++joint) {
     const double count = options.encoder_resolution[joint];
-    require(std::isfinite(count) && count >= 0.0, "encoder_resolution of joint " + std::to_string(joint + 1) + " is " + std::to_string(count) +
-                                                      "; give rad or m a count, or 0 for an exact encoder");
+    require(std::isfinite(count) && count >= 0.0,
+            "encoder_resolution of joint " + std::to_string(joint + 1) + " is " + std::to_string(count) +
+                "; give rad or m a count, or 0 for an exact encoder");
   }
   require(options.max_passes > 0, "max_passes is " + std::to_string(options.max_passes) + "; give 1 or more");
 }
@@ -221,7 +221,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   const std::vector<std::string> names = parameter_names(fit.state, fit.problem.layout);
   const Eigen::VectorXd value = values(fit.state, fit.problem.layout);
   for (Index k = 0; k < fit.problem.layout.columns; ++k) {
-    result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std::sqrt(std::max(0.0, fit.covariance(k, k))), seen.data_std[k]});
+    const double std = std::sqrt(std::max(0.0, fit.covariance(k, k)));
+    result.parameters.push_back({names[static_cast<std::size_t>(k)], value[k], std, seen.data_std[k]});
   }
   result.stretches = hold_out(fit.problem, fit.state, fit.parts, fit.information, fit.now);
 

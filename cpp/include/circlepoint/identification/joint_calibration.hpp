@@ -95,7 +95,7 @@ struct JointEstimate {
 struct JointCalibration {
   Eigen::VectorXd reference_configuration;  ///< (n) rad or m
   std::vector<JointEstimate> joints;        ///< base to tip
-  Eigen::MatrixXd covariance;               ///< (4n, 4n) of the lines' local coordinates; zero: missing joints, points of rests alone
+  Eigen::MatrixXd covariance;               ///< (4n, 4n) of the lines' local coordinates, of lines given; points of rests: zero
   Eigen::Vector3d up_gravity_sensor = Eigen::Vector3d::Zero();  ///< m/s^2, an ideal sensor's reading at the reference
   SensorFromGravity sensor;
   Eigen::Vector3d percussion_distance = Eigen::Vector3d::Zero();      ///< m, of each channel

@@ -17,8 +17,9 @@
 // weakest directions. For every stretch the residual is also given by an estimate that did not see it (hold-out).
 //
 // Rests without any motion show directions only: the lines' points and what only motion shows are then no parameters, and no line is
-// complete. Fails (NotIdentifiable) where there are too few even of them. A joint that never moves is a result without a line, as is one
-// vaguer than 20 mrad or 20 mm; where no start leads to a fit, the single-joint results stand alone.
+// complete. Fails (NotIdentifiable) where there are too few even of them, or only sliding joints move in them. A joint that never moves is a
+// result without a line, as is one vaguer than 20 mrad or 20 mm, whose acceleration its counts drown, or whose mirrored line explains as
+// much; where no start leads to a fit, the single-joint results stand alone.
 
 #include <Eigen/Core>
 #include <cstdint>
