@@ -92,6 +92,7 @@ CASES = (
     Case("tests, MEMS", sensor="mems", noise=0.02),
     Case("all joints at once", free=True, counts=0.0, bounded=True),
     Case("all at once, vibration", free=True, vibration=0.1),
+    Case("all at once, 4,096 counts", free=True, counts=4096.0),
     Case("base joint exactly vertical", upright=True),
     Case("UR5, three parallel axes", arm=three_parallel_axes),
     Case("sensor 2 ms late", counts=0.0, late=0.002),
