@@ -16,6 +16,7 @@ constexpr double short_travel = 1.2;    // rad: over more, no other line fits by
 constexpr double least_turn = 0.02;     // rad between the two, below which they are one
 constexpr double same = 6.0;            // standard deviations between two that are one
 constexpr double told_apart = 16.0;     // by which the sum of squares must be larger: four standard deviations
+constexpr int enough_to_tell = 15;      // iterations, whether there is another minimum
 constexpr double hopeless = 10.0;       // times the sum of squares, with the noise as it is
 
 // (n) The mean of the joints' positions while the joint moves.
@@ -74,7 +75,7 @@ std::optional<ArmFit> mirrored_fit(const ArmFit& fit, const ArmProblem& fresh, s
   if (apart(start.axes[i].line, before) < least_turn) {
     return std::nullopt;
   }
-  const ArmSolution first = solve(fit.problem, start, most_iterations);
+  const ArmSolution first = solve(fit.problem, start, enough_to_tell);
   if (apart(first.state.axes[i].line, before) < least_turn || first.cost > hopeless * fit.data.cost) {
     return std::nullopt;
   }
