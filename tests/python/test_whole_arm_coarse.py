@@ -167,7 +167,21 @@ def test_a_motion_that_drowns_in_its_counts_is_named():
     for estimate in result.joints.joints:
         assert estimate.axis is None
         assert estimate.vague is None
-        assert "the rounding of its encoder's counts" in estimate.reason
+        assert "it moves by less than 20 of its encoder's counts" in estimate.reason
+
+
+def test_a_joint_that_moves_by_few_counts_beside_others_is_not_told():
+    pieces = [cp.MultiJointMotion(duration=40.0, amplitude=np.array([0.05, 0.2, 0.2]), seed=3)]
+    motion = cp.joint_trajectory(START + 3e-4, pieces, 200.0, 0.6)
+    simulation = cp.SimulationOptions(noise_std=0.01, encoder_counts_per_revolution=np.full(3, 1024.0), seed=1)
+    log = cp.simulate(chain_of(LINES), UP, cp.draw_accelerometer(load_sensor("qa700"), 1), motion, simulation)
+    options = cp.WholeArmOptions()
+    options.sensor = load_sensor("qa700")
+    options.encoder_resolution = np.full(3, 2 * np.pi / 1024)
+    first, *others = cp.calibrate_whole_arm(log, cp.segment(log), options).joints.joints
+    assert "less than 20 of its encoder's counts" in first.reason
+    assert first.vague is None  # its direction came out 0.2 rad off, stated to 0.04
+    assert all(estimate.axis is not None for estimate in others)
 
 
 def test_fast_motions_over_long_arcs_keep_their_harmonics():

@@ -78,9 +78,13 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
     }
     if (seen.rounding[i] > drowned) {
       std::array<char, 200> text{};
-      std::snprintf(text.data(), text.size(), "the rounding of its encoder's counts is %.0f %% of the acceleration it shows",
-                    100.0 * std::min(1.0, std::sqrt(seen.rounding[i])));
-      mine.reason = std::string(text.data()) + ", so its line cannot be told; move it farther or faster";
+      if (seen.rounding[i] < 1.0) {
+        std::snprintf(text.data(), text.size(), "the rounding of its encoder's counts is %.0f %% of the acceleration it shows, so its line",
+                      100.0 * std::sqrt(seen.rounding[i]));
+      } else {
+        std::snprintf(text.data(), text.size(), "it moves by less than %.0f of its encoder's counts, so its line", fewest_counts);
+      }
+      mine.reason = std::string(text.data()) + " cannot be told; move it farther or faster";
       mine.axis.reset();
       continue;
     }

@@ -274,7 +274,7 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
 }
 
 Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resolution) {
-  constexpr double least_counts = 10.0;  // of travel: what joints at rest yield by
+  constexpr double least_counts = 10.0;  // of travel in a stretch: what joints at rest yield by
   Eigen::VectorXd share = Eigen::VectorXd::Zero(resolution.size());
   for (Index joint = 0; joint < resolution.size() && !rows.stretches.empty(); ++joint) {
     const double noise = rounding_at_one_hertz(resolution[joint], rows.sample_rate) * std::pow(rows.cutoff, 2.5);
@@ -296,10 +296,10 @@ Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resol
       lowest = std::min(lowest, dwell.position[joint]);
       highest = std::max(highest, dwell.position[joint]);
     }
-    if (all > 0.0) {
-      share[joint] = of_counts / all;
-    } else if (highest - lowest < least_counts * resolution[joint]) {
+    if (highest - lowest < fewest_counts * resolution[joint]) {
       share[joint] = 1.0;
+    } else if (all > 0.0) {
+      share[joint] = of_counts / all;
     }
   }
   return share;

@@ -101,7 +101,9 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
 // (n) The share of its counts' rounding in the variance of each joint's acceleration, where it moves: what lets lines shrink towards
-// the sensor (errors in variables) once the weights no longer tell one from the other.
+// the sensor (errors in variables) once the weights no longer tell one from the other. One where a joint moves by fewer counts than make
+// noise of their rounding.
+constexpr double fewest_counts = 20.0;
 Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resolution);
 
 // Where the arm is known, joints at rest yield to the loads they bear (arm_yield).
