@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,7 +14,7 @@ namespace {
 constexpr double short_travel = 1.2;    // rad: over more, no other line fits by half
 constexpr double least_turn = 0.02;     // rad between the two, below which they are one
 constexpr double same = 6.0;            // standard deviations between two that are one
-constexpr double told_apart = 16.0;     // by which the sum of squares must be larger: four standard deviations
+constexpr double told_apart = 16.0;     // by which the misfit must be larger: four standard deviations
 constexpr int enough_to_tell = 15;      // iterations, whether there is another minimum
 constexpr double hopeless = 10.0;       // times the sum of squares, with the noise as it is
 
@@ -29,22 +28,6 @@ Eigen::VectorXd where_it_moves(const ArmRows& rows, Index joint, const Eigen::Ve
     weight += squares;
   }
   return weight > 0.0 ? Eigen::VectorXd(mean / weight) : otherwise;
-}
-
-double travel(const ArmRows& rows, Index joint) {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  const auto see = [&](double low, double high) {
-    lowest = std::min(lowest, low);
-    highest = std::max(highest, high);
-  };
-  for (const MovingStretch& stretch : rows.stretches) {
-    see(stretch.position.col(joint).minCoeff(), stretch.position.col(joint).maxCoeff());
-  }
-  for (const DwellRow& dwell : rows.dwells) {
-    see(dwell.position[joint], dwell.position[joint]);
-  }
-  return highest - lowest;
 }
 
 // Mirrored at the horizontal plane where the joint moves; with the point that leaves the acceleration at the sensor least changed.
@@ -90,13 +73,32 @@ std::optional<ArmFit> mirrored_fit(const ArmFit& fit, const ArmProblem& fresh, s
   return rival;
 }
 
+// Puts the first better rival in the fit's place; whether there was one. `ambiguous` of those that are about as good.
+bool improve(ArmFit& fit, const ArmProblem& fresh, const std::vector<std::size_t>& candidates, const std::vector<bool>& moves,
+             const WholeArmOptions& options, std::vector<bool>& ambiguous) {
+  ambiguous.assign(fit.state.axes.size(), false);
+  for (const std::size_t i : candidates) {
+    std::optional<ArmFit> rival = mirrored_fit(fit, fresh, i, moves, options);
+    if (!rival) {
+      continue;
+    }
+    fit.iterations += rival->iterations;
+    const double worse = misfit(*rival) - misfit(fit);
+    if (worse < 0.0) {
+      rival->iterations = fit.iterations;
+      fit = std::move(*rival);
+      return true;
+    }
+    ambiguous[i] = worse < told_apart;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<bool> settle_among_mirrored(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& options) {
-  const std::size_t joints = fit.state.axes.size();
-  std::vector<bool> ambiguous(joints, false);
   std::vector<std::size_t> candidates;
-  for (std::size_t i = 0; i < joints && fit.problem.layout.points; ++i) {
+  for (std::size_t i = 0; i < fit.state.axes.size() && fit.problem.layout.points; ++i) {
     if (fit.problem.layout.lines[i] >= 0 && fit.state.axes[i].type == JointType::revolute &&
         travel(fit.problem.rows, static_cast<Index>(i)) < short_travel) {
       candidates.push_back(i);
@@ -104,27 +106,10 @@ std::vector<bool> settle_among_mirrored(ArmFit& fit, const std::vector<bool>& mo
   }
   const ArmProblem fresh = candidates.empty() ? ArmProblem{} : fit.problem;
   settle(fit, moves, options);
-  bool better = true;
-  for (std::size_t round = 0; better && round <= candidates.size(); ++round) {
-    better = false;
-    ambiguous.assign(joints, false);
-    for (const std::size_t i : candidates) {
-      std::optional<ArmFit> rival = mirrored_fit(fit, fresh, i, moves, options);
-      if (!rival) {
-        continue;
-      }
-      const double worse = misfit(*rival) - misfit(fit);
-      const int iterations = fit.iterations + rival->iterations;
-      if (worse < 0.0) {
-        fit = std::move(*rival);
-        better = true;
-      }
-      fit.iterations = iterations;
-      if (better) {
-        break;  // the others' rivals were the other fit's
-      }
-      ambiguous[i] = worse < told_apart;
-    }
+  std::vector<bool> ambiguous;
+  std::size_t better = 0;  // after each, the others' rivals were another fit's
+  while (improve(fit, fresh, candidates, moves, options, ambiguous) && better < candidates.size()) {
+    ++better;
   }
   return ambiguous;
 }

@@ -43,6 +43,33 @@ std::string why_vague(const JointAxis& axis, double gravity_std) {
   return {};
 }
 
+// Why a line and its covariance mean nothing, whatever they are; empty: they do.
+std::string why_untold(const Seen& seen, Index joint) {
+  const double rounding = seen.rounding[joint];
+  if (rounding > drowned) {
+    std::array<char, 200> text{};
+    if (rounding < 1.0) {
+      std::snprintf(text.data(), text.size(), "the rounding of its encoder's counts is %.0f %% of the acceleration it shows, so its line",
+                    100.0 * std::sqrt(rounding));
+    } else {
+      std::snprintf(text.data(), text.size(), "it moves by less than %.0f of its encoder's counts, so its line", fewest_counts);
+    }
+    return std::string(text.data()) + " cannot be told; move it farther or faster";
+  }
+  if (seen.ambiguous[static_cast<std::size_t>(joint)]) {
+    return "another line, with its axis mirrored at the horizontal plane, explains its short motion about as well; move it farther, "
+           "over 70 degrees or more";
+  }
+  return {};
+}
+
+// As where rests alone were recorded.
+void forget_place(JointAxis& axis) {
+  axis.covariance.rightCols<2>().setZero();
+  axis.covariance.bottomRows<2>().setZero();
+  axis.covariance.diagonal().tail<2>().setConstant(std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 
 void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmState& state, const Eigen::MatrixXd& covariance,
@@ -74,23 +101,10 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
     }
     mine.axis = JointAxis{state.axes[at], estimate.covariance.block<4, 4>(4 * i, 4 * i)};
     if (!layout.points) {
-      mine.axis->covariance.diagonal().tail<2>().setConstant(std::numeric_limits<double>::infinity());
+      forget_place(*mine.axis);
     }
-    if (seen.rounding[i] > drowned) {
-      std::array<char, 200> text{};
-      if (seen.rounding[i] < 1.0) {
-        std::snprintf(text.data(), text.size(), "the rounding of its encoder's counts is %.0f %% of the acceleration it shows, so its line",
-                      100.0 * std::sqrt(seen.rounding[i]));
-      } else {
-        std::snprintf(text.data(), text.size(), "it moves by less than %.0f of its encoder's counts, so its line", fewest_counts);
-      }
-      mine.reason = std::string(text.data()) + " cannot be told; move it farther or faster";
-      mine.axis.reset();
-      continue;
-    }
-    if (!seen.ambiguous.empty() && seen.ambiguous[at]) {
-      mine.reason = "another line, with its axis mirrored at the horizontal plane, explains its short motion about as well; move it "
-                    "farther, over 70 degrees or more";
+    mine.reason = why_untold(seen, i);
+    if (!mine.reason.empty()) {
       mine.axis.reset();
       continue;
     }
@@ -112,9 +126,7 @@ void write_lines(JointCalibration& estimate, const ArmLayout& layout, const ArmS
       } else if (seen.gravity_std < unknown_direction && direction_std < unknown_direction) {
         mine.vague = mine.axis;
         if (!(mine.vague->point_std() < unknown_place)) {
-          mine.vague->covariance.rightCols<2>().setZero();
-          mine.vague->covariance.bottomRows<2>().setZero();
-          mine.vague->covariance.diagonal().tail<2>().setConstant(std::numeric_limits<double>::infinity());
+          forget_place(*mine.vague);
         }
       }
       mine.axis.reset();

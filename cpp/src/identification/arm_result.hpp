@@ -12,7 +12,7 @@ struct Seen {
   bool sensor_is_known = true;
   Eigen::VectorXd data_std;      // of all columns, by the data alone
   Eigen::VectorXd rounding;      // (n) share of its counts' rounding in each joint's acceleration
-  std::vector<bool> ambiguous;   // (n) or empty: the mirrored line explains the joint's motion about as well
+  std::vector<bool> ambiguous;   // (n) the mirrored line explains the joint's motion about as well
   double rest_rms = 0.0;         // m/s^2, of the rests' residuals
 };
 

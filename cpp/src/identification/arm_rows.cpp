@@ -273,6 +273,20 @@ double choose_common_cutoff(const Recording& recording, const Segmentation& segm
   return cutoff;
 }
 
+double travel(const ArmRows& rows, Index joint) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const MovingStretch& stretch : rows.stretches) {
+    lowest = std::min(lowest, stretch.position.col(joint).minCoeff());
+    highest = std::max(highest, stretch.position.col(joint).maxCoeff());
+  }
+  for (const DwellRow& dwell : rows.dwells) {
+    lowest = std::min(lowest, dwell.position[joint]);
+    highest = std::max(highest, dwell.position[joint]);
+  }
+  return highest - lowest;
+}
+
 Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resolution) {
   constexpr double least_counts = 10.0;  // of travel in a stretch: what joints at rest yield by
   Eigen::VectorXd share = Eigen::VectorXd::Zero(resolution.size());
@@ -280,23 +294,15 @@ Eigen::VectorXd rounding_share(const ArmRows& rows, const Eigen::VectorXd& resol
     const double noise = rounding_at_one_hertz(resolution[joint], rows.sample_rate) * std::pow(rows.cutoff, 2.5);
     double of_counts = 0.0;
     double all = 0.0;
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
     for (const MovingStretch& stretch : rows.stretches) {
       const auto position = stretch.position.col(joint);
-      lowest = std::min(lowest, position.minCoeff());
-      highest = std::max(highest, position.maxCoeff());
       const bool follows = stretch.follows[static_cast<std::size_t>(joint)];
       if (!follows && position.maxCoeff() - position.minCoeff() > least_counts * resolution[joint]) {
         of_counts += noise * noise * static_cast<double>(stretch.rows());
         all += stretch.acceleration.col(joint).squaredNorm();
       }
     }
-    for (const DwellRow& dwell : rows.dwells) {
-      lowest = std::min(lowest, dwell.position[joint]);
-      highest = std::max(highest, dwell.position[joint]);
-    }
-    if (highest - lowest < fewest_counts * resolution[joint]) {
+    if (travel(rows, joint) < fewest_counts * resolution[joint]) {
       share[joint] = 1.0;
     } else if (all > 0.0) {
       share[joint] = of_counts / all;

@@ -100,6 +100,9 @@ MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& row
 // times where arcs are long.
 double choose_common_cutoff(const Recording& recording, const Segmentation& segmentation, const Eigen::VectorXd& resolution);
 
+// By how much a joint's position differs over all rows, rad or m.
+double travel(const ArmRows& rows, Index joint);
+
 // (n) The share of its counts' rounding in the variance of each joint's acceleration, where it moves: what lets lines shrink towards
 // the sensor (errors in variables) once the weights no longer tell one from the other. One where a joint moves by fewer counts than make
 // noise of their rounding.

@@ -101,20 +101,26 @@ void settle(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& 
   }
 }
 
+double normalised_squares(const ArmFit& fit) {
+  double squares = fit.now.dwells_normalized.squaredNorm();
+  for (const Eigen::MatrixXd& whitened : fit.now.whitened) {
+    squares += fit.problem.noise.inflation * whitened.squaredNorm();
+  }
+  return squares;
+}
+
 double misfit(const ArmFit& fit) {
   const ArmProblem& problem = fit.problem;
   const double inflation = problem.noise.inflation;  // for what motions disagree by, not for how they scatter
-  double squares = fit.now.dwells_normalized.squaredNorm();
   double logarithms = 0.5 * (fit.now.dwell_variance.rowwise() + problem.noise.dwell_excess.cwiseAbs2().transpose()).array().log().sum();
   for (std::size_t i = 0; i < problem.rows.stretches.size(); ++i) {
-    const Eigen::MatrixXd& whitened = fit.now.whitened[i];
-    squares += inflation * whitened.squaredNorm();
-    logarithms += log_root_determinant(problem.noise, problem.rows, i) - 0.5 * static_cast<double>(whitened.size()) * std::log(inflation);
+    const auto count = static_cast<double>(fit.now.whitened[i].size());
+    logarithms += log_root_determinant(problem.noise, problem.rows, i) - 0.5 * count * std::log(inflation);
   }
   const auto left = static_cast<double>(problem.rows.equations());
   const double all = left + static_cast<double>(fit.outliers * problem.rows.channels);
   const double prior = linearise_prior(problem, fit.state).cost + problem.offsets.dot(problem.rows.offset_information * problem.offsets);
-  return (squares + 2.0 * logarithms) * all / left + prior;
+  return (normalised_squares(fit) + 2.0 * logarithms) * all / left + prior;
 }
 
 }  // namespace circlepoint

@@ -28,6 +28,9 @@ struct ArmFit {
 // Takes problem and state of a start to the estimate. Rows that knock are cut out, encoders that are evidently off get columns.
 void settle(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& options);
 
+// Sum of the normalised squares, the noise not inflated.
+double normalised_squares(const ArmFit& fit);
+
 // Minus twice the logarithm of the likelihood, but for what all fits of one recording share; priors included, the noise not inflated, and
 // rows that are left out as if they were like the others.
 double misfit(const ArmFit& fit);

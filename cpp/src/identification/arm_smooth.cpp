@@ -206,11 +206,11 @@ std::vector<IndexRange> without_steps(const SmoothSpan& span, const IndexRange& 
     if (travel <= few_counts * resolution[j] || travel <= 0.0) {
       continue;
     }
-    const double fastest = joints.derivative(1, j, begin, moving.size()).cwiseAbs().maxCoeff();
+    const Eigen::ArrayXd speed = joints.derivative(1, j, begin, moving.size()).array().abs();
+    const double fastest = speed.maxCoeff();
     const double own = std::pow(2.0 * fastest / travel, 2) * fastest;
     Eigen::ArrayXd noise = of_counts;
     if (coarse) {  // inside, a joint that turns round crosses its counts one by one
-      const Eigen::ArrayXd speed = joints.derivative(1, j, begin, moving.size()).array().abs();
       for (Index i = reach; i + reach < moving.size(); ++i) {
         if (speed[i] < slow_crossings * joints.cutoff * resolution[j]) {
           double& here = noise[begin - seen.begin + i];

@@ -126,12 +126,15 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   validate(recording, options);
   const Index joints = recording.joints();
   WholeArmCalibration result;
-  const JointCalibrationOptions single = joint_options(options);
+  JointCalibrationOptions single = joint_options(options);
+  if (single.encoder_resolution.size() == 0) {
+    single.encoder_resolution = encoder_resolution(recording, single);  // once: all samples are looked at
+  }
   JointCalibrationOptions quick = single;  // what is good enough to start from
   quick.use_resting_encoders = false;
   quick.max_passes = 2;
   result.joints = calibrate_joints(recording, segmentation, quick);
-  const Eigen::VectorXd resolution = encoder_resolution(recording, single);
+  const Eigen::VectorXd& resolution = single.encoder_resolution;
   std::vector<bool> moves;
   std::vector<bool> known;
   for (Index j = 0; j < joints; ++j) {
@@ -179,8 +182,11 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   constexpr double moving_guess = 0.1;  // m/s^2
   constexpr double dwell_guess = 0.02;  // m/s^2
   constexpr double rate_guess = 0.01;   // rad/s
-  problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
-  problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+  const auto begin_anew = [&] {
+    problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
+    problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+  };
+  begin_anew();
   if (problem.rows.yields) {
     // Now that the lines are known, so are the loads that coarse encoders show their joints yield to.
     const ArmSolution first = solve(problem, state, most_iterations, last_change);
@@ -192,8 +198,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
       problem.rows = std::move(tied);
       result.samples = problem.rows.samples;
       name_kinds(problem.rows, joints);
-      problem.noise = white_noise(problem.rows, moving_guess, dwell_guess, rate_guess);
-      problem.offsets = Eigen::VectorXd::Zero(problem.rows.offset_covariance.rows());
+      begin_anew();
     }
   }
   ArmFit fit{std::move(problem), std::move(state)};
@@ -203,12 +208,8 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
   result.unsettled = fit.unsettled;
   result.converged = fit.converged;
   result.noise_inflation = fit.problem.noise.inflation;
-  double squares = fit.now.dwells_normalized.squaredNorm();
   result.rows = fit.problem.rows.equations();
-  for (const Eigen::MatrixXd& whitened : fit.now.whitened) {
-    squares += fit.problem.noise.inflation * whitened.squaredNorm();
-  }
-  result.normalized_rms = std::sqrt(squares / static_cast<double>(result.rows));
+  result.normalized_rms = std::sqrt(normalised_squares(fit) / static_cast<double>(result.rows));
 
   result.covariance = fit.covariance;
   if (fit.problem.prior.gravity_known) {
