@@ -1,6 +1,7 @@
 #include "arm_noise.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +35,35 @@ void scale(MotionNoise& noise, double factor) {
   }
 }
 
+// m/s^2 or rad/s: the standard deviation in every direction that, beside what is known of each dwell, makes three channels' residuals
+// likeliest. Where an encoder's count tilts gravity, what is across that direction tells. `freedom`: the share that no parameter takes.
+double dwell_excess(const Eigen::MatrixXd& dwells, const std::vector<Eigen::MatrixXd>& covariance, Index channel, double freedom) {
+  const Index count = dwells.rows();
+  Eigen::ArrayXXd known(3, count);    // variance in each dwell's principal directions
+  Eigen::ArrayXXd squares(3, count);  // there
+  for (Index i = 0; i < count; ++i) {
+    const Eigen::Matrix3d mine = covariance[static_cast<std::size_t>(i)].block<3, 3>(channel, channel);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions(mine);
+    known.col(i) = directions.eigenvalues().cwiseMax(0.0);
+    squares.col(i) = (directions.eigenvectors().transpose() * dwells.row(i).segment<3>(channel).transpose()).array().square() / freedom;
+  }
+  // Minus twice the slope of the logarithm of the likelihood: below zero where more is likelier.
+  const auto slope = [&](double variance) {
+    const Eigen::ArrayXXd weight = (known + variance).inverse();
+    return (weight - squares * weight.square()).sum();
+  };
+  double low = 0.0;
+  double high = count > 0 ? squares.maxCoeff() : 0.0;
+  if (!(high > 0.0) || slope(1e-3 * known.minCoeff()) >= 0.0) {
+    return 0.0;
+  }
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) < 0.0 ? low : high) = middle;
+  }
+  return std::sqrt(high);
+}
+
 }  // namespace
 
 ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, double rate_std) {
@@ -58,7 +88,7 @@ ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, d
 }
 
 ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
-                        const Eigen::MatrixXd& dwell_variance, double parameters, double inflation,
+                        const std::vector<Eigen::MatrixXd>& dwell_covariance, double parameters, double inflation,
                         const std::vector<Eigen::MatrixXd>& encoders, const ArmNoise* before, bool settled) {
   ArmNoise noise;
   noise.inflation = inflation;
@@ -94,24 +124,12 @@ ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, con
     scale(noise.kinds.back(), total / std::max(total - parameters, 1.0) * repetition_factor(rows, members) * inflation);
   }
   include_encoders(noise, rows, encoders);
-  // The excess that makes the dwells' normalised squares average one, by bisection.
-  constexpr double least = 1e-6;  // m/s^2 or rad/s: a dwell without any scatter still has a weight
-  noise.dwell_excess = Eigen::VectorXd::Constant(rows.channels, least);
-  const double dof = static_cast<double>(dwells.rows()) * std::max(0.2, 1.0 - parameters / std::max(1.0, total));
-  for (Index triad = 0; triad < rows.channels / 3 && dwells.rows() > 0; ++triad) {
-    const auto excess_squares = [&](double variance) {
-      return (dwells.middleCols<3>(3 * triad).array().square() / (dwell_variance.middleCols<3>(3 * triad).array() + variance)).sum() -
-             3.0 * dof;
-    };
-    double low = 0.0;
-    double high = dwells.middleCols<3>(3 * triad).array().square().maxCoeff() + 1e-12;
-    if (excess_squares(0.0) > 0.0) {
-      for (int i = 0; i < 80; ++i) {
-        const double middle = 0.5 * (low + high);
-        (excess_squares(middle) > 0.0 ? low : high) = middle;
-      }
-      noise.dwell_excess.segment<3>(3 * triad).setConstant(std::max(least, std::sqrt(high)));
-    }
+  // A dwell without any scatter still has a weight.
+  constexpr double least = 1e-6;  // m/s^2 or rad/s
+  const double freedom = std::max(0.2, 1.0 - parameters / std::max(1.0, total));
+  noise.dwell_excess.resize(rows.channels);
+  for (Index triad = 0; triad < rows.channels / 3; ++triad) {
+    noise.dwell_excess.segment<3>(3 * triad).setConstant(std::max(least, dwell_excess(dwells, dwell_covariance, 3 * triad, freedom)));
   }
   return noise;
 }

@@ -20,12 +20,12 @@ struct ArmNoise {
 // White noise of the given size, before any residual is known.
 ArmNoise white_noise(const ArmRows& rows, double moving_std, double dwell_std, double rate_std);
 
-// From residuals of the moving stretches and of the dwells (D, channels); `dwell_variance` (D, channels) is what the dwells'
+// From residuals of the moving stretches and of the dwells (D, channels); `dwell_covariance` (D) (channels, channels) is what the dwells'
 // own scatter and the encoders explain; parameters: how many were fitted; inflation of the stretches' variance, by their scores;
 // encoders: covariance of what they make of each stretch, or empty; before: the noise so far, where the search goes on from it, or, once
 // settled, ends; without encoders its channels and orders then stay, which criterion and parameters could drive to and fro for ever.
 ArmNoise estimate_noise(const ArmRows& rows, const StretchResiduals& moving, const Eigen::MatrixXd& dwells,
-                        const Eigen::MatrixXd& dwell_variance, double parameters, double inflation,
+                        const std::vector<Eigen::MatrixXd>& dwell_covariance, double parameters, double inflation,
                         const std::vector<Eigen::MatrixXd>& encoders, const ArmNoise* before, bool settled);
 
 // Takes the encoders' errors, as above, into the whitening.

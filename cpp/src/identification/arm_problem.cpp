@@ -310,7 +310,6 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSys
   result.moving.resize(stretches);
   result.whitened.resize(stretches);
   result.dwells.resize(dwells, channels);
-  result.dwell_variance.resize(dwells, channels);
   result.dwells_normalized.resize(dwells, channels);
   const bool known = kept != nullptr && brought_up_to(*kept, problem, flattened(state, problem.layout));
   for_each(problem, state, stretches, [&](Workspace& workspace, std::size_t i) {
@@ -329,7 +328,7 @@ ArmResiduals residuals(const ArmProblem& problem, const ArmState& state, KeptSys
     DwellSystem system = dwell_system(problem, predictor, problem.rows.dwells[static_cast<std::size_t>(i)]);
     const Eigen::VectorXd residual = system.rows.col(system.rows.cols() - 1);
     result.dwells.row(i) = residual;
-    result.dwell_variance.row(i) = system.variance.diagonal();
+    result.dwell_covariance.push_back(system.variance);
     system.variance.diagonal() += problem.noise.dwell_excess.cwiseAbs2();
     const Eigen::LLT<Eigen::MatrixXd> factor(system.variance);
     result.dwells_normalized.row(i) = factor.matrixL().solve(residual);

@@ -59,7 +59,7 @@ struct ArmResiduals {
   StretchResiduals moving;        // (M, channels) each, model - reading
   StretchResiduals whitened;      // the same whitened
   Eigen::MatrixXd dwells;         // (D, channels)
-  Eigen::MatrixXd dwell_variance; // (D, channels) by their samples' scatter and the encoders
+  std::vector<Eigen::MatrixXd> dwell_covariance;  // (D) (channels, channels) by their samples' scatter and the encoders
   Eigen::MatrixXd dwells_normalized;  // (D, channels)
 };
 

@@ -1,5 +1,6 @@
 #include "arm_settle.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -95,7 +96,7 @@ void settle(ArmFit& fit, const std::vector<bool>& moves, const WholeArmOptions& 
     // A few rests have hardly more equations than there are columns, most of which what is known of the sensor settles.
     const double fitted =
         problem.layout.points ? static_cast<double>(problem.layout.columns) : (fit.covariance * fit.data.information).trace();
-    problem.noise = estimate_noise(problem.rows, fit.now.moving, fit.now.dwells, fit.now.dwell_variance, fitted, inflation,
+    problem.noise = estimate_noise(problem.rows, fit.now.moving, fit.now.dwells, fit.now.dwell_covariance, fitted, inflation,
                                    encoder_covariances(problem, fit.state), pass > since ? &before : nullptr,
                                    pass > std::max(since + passes_to_settle, cutting + passes_that_cut - 1));
   }
@@ -112,7 +113,11 @@ double normalised_squares(const ArmFit& fit) {
 double misfit(const ArmFit& fit) {
   const ArmProblem& problem = fit.problem;
   const double inflation = problem.noise.inflation;  // for what motions disagree by, not for how they scatter
-  double logarithms = 0.5 * (fit.now.dwell_variance.rowwise() + problem.noise.dwell_excess.cwiseAbs2().transpose()).array().log().sum();
+  double logarithms = 0.0;
+  for (Eigen::MatrixXd covariance : fit.now.dwell_covariance) {
+    covariance.diagonal() += problem.noise.dwell_excess.cwiseAbs2();
+    logarithms += covariance.llt().matrixLLT().diagonal().array().log().sum();
+  }
   for (std::size_t i = 0; i < problem.rows.stretches.size(); ++i) {
     const auto count = static_cast<double>(fit.now.whitened[i].size());
     logarithms += log_root_determinant(problem.noise, problem.rows, i) - 0.5 * count * std::log(inflation);
