@@ -8,8 +8,15 @@
 namespace circlepoint {
 namespace {
 
-constexpr double finest_change = 0.05;     // counts: no count change is known better
+constexpr double supposed_change = 0.03;   // counts rms that changes scatter by, supposed with the weight of
+constexpr double supposed_weight = 4.0;    // changes
+constexpr double finest_change = 5e-3;     // counts: no boundary is known better
 constexpr double worst_change = 0.35;      // counts rms: the model does not hold beyond
+
+// Squared counts: a boundary is passed anywhere between two samples, and anywhere within what the joint moves by in that time.
+Eigen::ArrayXd between_samples(const CountRows& counts) {
+  return (counts.change_moved.array().square() + (counts.change_size.array() - 1.0).max(0.0).square()) / 12.0;
+}
 
 JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::size_t>& tests) {
   JointFit fit;
@@ -34,8 +41,7 @@ JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::
     if (mine.change.size() == 0) {
       continue;
     }
-    const Eigen::ArrayXd variance =
-        mine.repeats.array() * (mine.change_std * mine.change_std + (mine.change_size.array() - 1.0).max(0.0).square() / 12.0);
+    const Eigen::ArrayXd variance = mine.repeats.array() * (mine.change_std * mine.change_std) + between_samples(mine);
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(mine.change.size(), columns);
     system.col(0).setOnes();
     system.middleCols(fit.first[k], size) = mine.change_functions;
@@ -46,6 +52,26 @@ JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::
   fit.covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(columns, columns));
   fit.estimate = fit.covariance * gradient;
   return fit;
+}
+
+// What the changes of a test are off by.
+struct Scatter {
+  double freedom = 0.0;
+  double squares = 0.0;  // counts^2
+  double beyond = 0.0;   // the same, beyond what passes between samples
+
+  [[nodiscard]] double rms() const { return freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0; }
+};
+
+Scatter scatter(const CountRows& counts, const Eigen::VectorXd& c, double home) {
+  const auto size = static_cast<double>(counts.change.size());
+  Scatter result;
+  if (counts.change.size() > 0) {
+    result.freedom = std::max(0.3 * size, size - static_cast<double>(c.size()));
+    result.squares = ((counts.change_functions * c - counts.change).array() + home).square().sum();
+    result.beyond = std::max(0.0, result.squares - between_samples(counts).sum() * result.freedom / size);
+  }
+  return result;
 }
 
 }  // namespace
@@ -79,17 +105,23 @@ void read_counts(CountRows& counts, const Eigen::MatrixXd& phi, const Eigen::Ref
   };
   const auto count = static_cast<Index>(changes.size());
   Eigen::MatrixXd functions_there(count, phi.cols());
+  Eigen::MatrixXd motion(count, phi.cols());
   Eigen::VectorXd value(count);
   Eigen::VectorXd size(count);
   Eigen::VectorXd upward(count);
   for (Index k = 0; k < count; ++k) {
     const Index at = changes[static_cast<std::size_t>(k)];
     functions_there.row(k) = 0.5 * (phi.row(at) + phi.row(at + 1));
+    motion.row(k) = phi.row(at + 1) - phi.row(at);
     value[k] = 0.5 * (encoder[at] + encoder[at + 1]);
     size[k] = std::abs(encoder[at + 1] - encoder[at]);
     upward[k] = encoder[at + 1] > encoder[at] ? 1.0 : 0.0;
   }
+  const Index before = counts.change.size();
   append(counts.change_functions, counts.change, functions_there, value);
+  counts.change_motion.conservativeResize(before + count, phi.cols());
+  counts.change_motion.bottomRows(count) = motion;
+  counts.change_moved = Eigen::VectorXd::Zero(before + count);
   counts.change_size.conservativeResize(counts.change.size());
   counts.change_size.tail(count) = size;
   counts.upward.conservativeResize(counts.change.size());
@@ -102,20 +134,25 @@ JointFit fit_and_judge(std::vector<CountRows>& counts, std::vector<std::size_t> 
   for (int pass = 0; pass < 4; ++pass) {
     fit = fit_joint(counts, tests);
     std::vector<std::size_t> holding;
+    std::vector<Scatter> off;
+    Scatter all{supposed_weight, 0.0, supposed_weight * supposed_change * supposed_change};
     for (std::size_t k = 0; k < tests.size(); ++k) {
       CountRows& mine = counts[tests[k]];
-      const Index size = mine.within_functions.cols();
-      if (mine.change.size() > 0) {
-        const Eigen::VectorXd misfit =
-            ((mine.change_functions * fit.estimate.segment(fit.first[k], size)).array() + fit.estimate[0]).matrix() - mine.change;
-        const double freedom = std::max(0.3 * static_cast<double>(misfit.size()), static_cast<double>(misfit.size() - size));
-        const double rms = std::sqrt(misfit.squaredNorm() / freedom);
-        if (pass > 0 && rms > worst_change) {
-          continue;
-        }
-        mine.change_std = std::max(finest_change, rms);
+      const Eigen::VectorXd c = fit.estimate.segment(fit.first[k], mine.within_functions.cols());
+      mine.change_moved = mine.change_motion * c;
+      const Scatter here = scatter(mine, c, fit.estimate[0]);
+      if (pass > 0 && here.rms() > worst_change) {
+        continue;
       }
       holding.push_back(tests[k]);
+      off.push_back(here);
+      all.freedom += here.freedom;
+      all.beyond += here.beyond;
+    }
+    const double common = all.beyond / all.freedom;
+    for (std::size_t k = 0; k < holding.size(); ++k) {
+      const double variance = (off[k].beyond + supposed_weight * common) / (off[k].freedom + supposed_weight);
+      counts[holding[k]].change_std = std::max(finest_change, std::sqrt(variance));
     }
     if (pass > 1 && holding.size() == tests.size()) {
       break;

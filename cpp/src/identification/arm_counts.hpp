@@ -18,6 +18,8 @@ namespace circlepoint {
 // Rows of one test about one resting joint, in counts from home's.
 struct CountRows {
   Eigen::MatrixXd change_functions;  // where the count changes
+  Eigen::MatrixXd change_motion;     // of the functions, from the sample before to the one after
+  Eigen::VectorXd change_moved;      // counts meanwhile, by the fit
   Eigen::VectorXd change;
   Eigen::VectorXd change_size;       // counts
   Eigen::VectorXd upward;            // 1 or 0
