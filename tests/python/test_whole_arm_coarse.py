@@ -60,6 +60,25 @@ def test_errors_are_as_large_as_the_covariance_says_and_below_half_a_count(share
     assert np.abs(error).max() < 0.5 * 2 * np.pi / counts
 
 
+def test_coarse_encoders_double_the_errors_of_fine_ones_at_most(shared_data):
+    log, truth = load(shared_data / "physics-arm7-sweeps-coarse")
+    error, _, result = estimate(log, truth, 4096)
+    lines = error.reshape(-1, 4)
+    assert np.linalg.norm(lines[:, :2], axis=1).max() < 8e-5
+    assert np.linalg.norm(lines[:, 2:], axis=1).max() < 2.4e-4
+    poses = np.random.default_rng(0).uniform(-np.pi, np.pi, (200, log.joints))
+    there = cp.rebase(truth, result.joints.reference_configuration)
+    assert cp.end_point_error(result.joints.chain(), there, poses) < 3e-4
+    assert all(fit.dwell_positions.size >= 10 for fit in result.joints.fits)  # though joints at rest are followed
+
+
+def test_a_joint_that_stands_where_no_dwell_was_seen_stands_within_its_count(shared_data):
+    log, truth = load(shared_data / "physics-arm7-sweeps-qa700")
+    zero = np.random.default_rng(16).uniform(size=log.joints)
+    error, covariance, _ = estimate(requantised(log, 8192, zero), truth, 8192)  # counts flicker in one of the rests
+    assert error @ np.linalg.solve(covariance, error) / error.size < 2.0
+
+
 @pytest.mark.parametrize("seed", [5, 37])
 def test_a_joint_whose_counts_never_change_may_yet_yield(shared_data, seed):
     log, truth = load(shared_data / "physics-arm7-sweeps-qa700")

@@ -62,39 +62,54 @@ void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift) {
   }
 }
 
-// Which rows share a rest: the same joint on the same count.
-void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
+namespace {
+
+// Rows in which one joint stands on the same count.
+struct Rest {
+  double position = 0.0;
+  std::vector<DwellRow*> dwells;
+  std::vector<MovingStretch*> stretches;
+};
+
+// Whether a joint stands still all through a stretch, and nothing is said of its error there.
+bool stands(const MovingStretch& stretch, Index joint, double count) {
+  const auto position = stretch.position.col(joint);
+  const auto told = [&](const PositionError& error) { return error.joint == joint; };
+  return !stretch.follows[static_cast<std::size_t>(joint)] && position.maxCoeff() - position.minCoeff() < one_rest * count &&
+         std::none_of(stretch.errors.begin(), stretch.errors.end(), told);
+}
+
+std::vector<Rest> find_rests(ArmRows& rows, Index joint, double count) {
+  std::vector<Rest> rests;
+  const auto rest_at = [&](double position) -> Rest& {
+    const auto same = std::find_if(rests.begin(), rests.end(),
+                                   [&](const Rest& rest) { return std::abs(rest.position - position) < one_rest * count; });
+    return same == rests.end() ? rests.emplace_back(Rest{position, {}, {}}) : *same;
+  };
+  for (DwellRow& dwell : rows.dwells) {
+    if (!dwell.follows[static_cast<std::size_t>(joint)]) {
+      rest_at(dwell.position[joint]).dwells.push_back(&dwell);
+    }
+  }
+  for (MovingStretch& stretch : rows.stretches) {
+    if (stands(stretch, joint, count)) {
+      rest_at(stretch.position.col(joint).mean()).stretches.push_back(&stretch);
+    }
+  }
+  return rests;
+}
+
+}  // namespace
+
+void give_offsets(ArmRows& rows, const Eigen::VectorXd& resolution) {
   for (Index joint = 0; joint < resolution.size(); ++joint) {
-    const auto at = static_cast<std::size_t>(joint);
     const double count = resolution[joint];
     if (count <= 0.0) {
       continue;
     }
-    struct Rest {
-      double position = 0.0;
-      std::vector<DwellRow*> dwells;
-      std::vector<MovingStretch*> stretches;
-    };
-    std::vector<Rest> rests;
-    for (DwellRow& dwell : rows.dwells) {
-      if (dwell.follows[at]) {
-        continue;
-      }
-      const auto same = std::find_if(rests.begin(), rests.end(), [&](const Rest& rest) {
-        return std::abs(rest.position - dwell.position[joint]) < 0.75 * count;
-      });
-      Rest& rest = same == rests.end() ? rests.emplace_back(Rest{dwell.position[joint], {}, {}}) : *same;
-      rest.dwells.push_back(&dwell);
-    }
-    for (Rest& rest : rests) {
-      for (MovingStretch& stretch : rows.stretches) {
-        if (!stretch.follows[at] &&
-            (stretch.position.col(joint).array() - rest.position).abs().maxCoeff() < 0.75 * count) {
-          rest.stretches.push_back(&stretch);
-        }
-      }
-      if (rest.dwells.size() + rest.stretches.size() < 2) {
-        continue;
+    for (Rest& rest : find_rests(rows, joint, count)) {
+      if (rest.stretches.empty() && rest.dwells.size() < 2) {
+        continue;  // the dwell's own variance
       }
       const OffsetTerm term{joint, add_parameters(rows, Eigen::MatrixXd::Constant(1, 1, count * count / 12.0))};
       for (DwellRow* dwell : rest.dwells) {

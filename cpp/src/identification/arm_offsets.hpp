@@ -19,7 +19,7 @@ Index add_parameters(ArmRows& rows, const Eigen::MatrixXd& covariance);
 void set_prior(ArmRows& rows, Index first, const Eigen::MatrixXd& covariance);
 void shift_offsets(ArmRows& rows, Index first, const Eigen::VectorXd& shift);
 
-// Gives every rest that several rows share, the same joint on the same count, an offset of its own.
-void share_offsets(ArmRows& rows, const Eigen::VectorXd& resolution);
+// Gives every rest, the same joint on the same count, an offset of its own, which all its rows share; but one of a single dwell.
+void give_offsets(ArmRows& rows, const Eigen::VectorXd& resolution);
 
 }  // namespace circlepoint

@@ -197,7 +197,7 @@ void record_signals(JointCalibration& joints, const Segmentation& segmentation, 
     for (const Index dwell : segmentation.tests[static_cast<std::size_t>(test)].dwells) {
       const StaticDwell& static_dwell = segmentation.dwells[static_cast<std::size_t>(dwell)];
       for (std::size_t i = 0; i < problem.rows.dwells.size(); ++i) {
-        if (problem.rows.dwells[i].position == static_dwell.joint_positions) {
+        if (problem.rows.dwells[i].samples.begin == static_dwell.samples.begin) {
           mine.push_back(static_cast<Index>(i));
           break;
         }

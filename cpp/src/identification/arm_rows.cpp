@@ -79,9 +79,15 @@ void add_part(ArmRows& rows, const Recording& recording, const Segmentation& seg
   for (Index joint = 0; joint < recording.joints(); ++joint) {
     const bool moves = movers[static_cast<std::size_t>(joint)];
     smoothing.push_back(moves ? 0 : for_yields);
-    const bool coarse = errors && moves && resolution[joint] > finest;
-    const SamplesX& position = alone >= 0 ? span.sharp.position : span.joints[smoothing.back()].position;
-    counts.emplace_back(coarse ? Eigen::VectorXd(position.col(joint) / resolution[joint]) : Eigen::VectorXd());
+    counts.emplace_back();
+    if (errors && resolution[joint] > finest) {
+      const SamplesX& position = alone >= 0 ? span.sharp.position : span.joints[smoothing.back()].position;
+      const auto here = position.col(joint).segment(moving.begin - span.samples.begin, moving.size());
+      // One that rests has an error of its own (give_offsets) or is followed (arm_yield), but not where it wanders as nothing says.
+      if (moves || here.maxCoeff() - here.minCoeff() > one_rest * resolution[joint]) {
+        counts.back() = position.col(joint) / resolution[joint];
+      }
+    }
   }
   for (Index piece = 0; piece < pieces; ++piece) {
     const Index first = available * piece / pieces;
@@ -152,7 +158,7 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
     row.variance.tail<3>() = (rate.rowwise() - rate.colwise().mean()).colwise().squaredNorm() / (count * count);
   }
   row.time = 0.5 * (recording.time[dwell.samples.begin] + recording.time[dwell.samples.end - 1]);
-  row.samples = dwell.samples.size();
+  row.samples = dwell.samples;
   return row;
 }
 
@@ -352,7 +358,7 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
   if (coarse) {
     follow_yields(rows, recording, segmentation, spans, resolution, arm);
   }
-  share_offsets(rows, resolution);
+  give_offsets(rows, resolution);
   return rows;
 }
 

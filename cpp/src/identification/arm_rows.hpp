@@ -58,7 +58,7 @@ struct DwellRow {
   Eigen::VectorXd reading;                              // (3) or (6)
   Eigen::VectorXd variance;                             // (3) or (6), of the mean by its samples' scatter
   double time = 0.0;                                    // s, middle
-  Index samples = 0;
+  IndexRange samples;                                   // of the recording
 };
 
 // Resting joints' motion that is tied to loads on a known arm (arm_yield).
@@ -90,6 +90,8 @@ struct ArmRows {
   // Scalar residuals.
   [[nodiscard]] Index equations() const;
 };
+
+constexpr double one_rest = 0.75;  // counts that positions of one rest may differ by
 
 // The given rows of a stretch.
 MovingStretch picked(const MovingStretch& stretch, const std::vector<Index>& rows);

@@ -169,5 +169,35 @@ TEST(KeptSystemsTest, AreMadeAnewAtAnotherState) {
   expect_same(linearise_data(given.problem, given.state, &kept), linearise_data(given.problem, given.state), 0.0);
 }
 
+// A joint stands where no dwell was seen, at half a count from where another stretch has it.
+TEST(ArmOffsetsTest, GivesARestOfAStretchItsOffsetWhetherShared) {
+  constexpr double count = 1e-3;
+  ArmRows rows;
+  for (const double at : {0.0, 0.4 * count, 5.0 * count}) {
+    MovingStretch stretch;
+    stretch.time = Eigen::VectorXd::LinSpaced(6, 0.0, 1.0);
+    stretch.position = SamplesX::Constant(6, 2, at);
+    stretch.position.col(1) = stretch.time;  // moves
+    stretch.follows.assign(2, false);
+    rows.stretches.push_back(stretch);
+  }
+  DwellRow dwell;
+  dwell.position = Eigen::Vector2d(9.0 * count, 0.0);
+  dwell.position_variance = Eigen::Vector2d::Constant(count * count / 12.0);
+  dwell.follows.assign(2, false);
+  rows.dwells = {dwell};
+  give_offsets(rows, Eigen::Vector2d::Constant(count));
+  ASSERT_EQ(rows.offset_covariance.rows(), 2);
+  EXPECT_DOUBLE_EQ(rows.offset_covariance(1, 1), count * count / 12.0);
+  for (const MovingStretch& stretch : rows.stretches) {
+    ASSERT_EQ(stretch.offsets.size(), 1U);
+    EXPECT_EQ(stretch.offsets[0].joint, 0);
+  }
+  EXPECT_EQ(rows.stretches[0].offsets[0].parameter, rows.stretches[1].offsets[0].parameter);
+  EXPECT_NE(rows.stretches[0].offsets[0].parameter, rows.stretches[2].offsets[0].parameter);
+  EXPECT_TRUE(rows.dwells[0].offsets.empty());  // its own variance stands for it
+  EXPECT_GT(rows.dwells[0].position_variance[0], 0.0);
+}
+
 }  // namespace
 }  // namespace circlepoint
