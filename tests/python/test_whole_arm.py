@@ -301,3 +301,22 @@ def test_what_the_model_lacks_is_not_averaged_out_by_repeating_the_motion():
 def test_options_that_do_not_fit_are_refused(field, bad, words):
     with pytest.raises(cp.InvalidInput, match=words):
         estimate(recorded(free(10.0)), **{field: bad})
+
+
+def test_an_arm_that_rings_on_after_it_has_stopped_is_not_in_motion():
+    pieces = [cp.MultiJointMotion(duration=6.0, amplitude=np.full(3, 0.8), seed=seed) for seed in range(4)]
+    motion = cp.joint_trajectory(START, pieces, 250.0, 3.0)
+    sensor = cp.draw_accelerometer(load_sensor("qa700"), 1)
+    log = cp.simulate(chain_of(LINES), UP, sensor, motion, cp.SimulationOptions(noise_std=0.01, seed=1))
+    time, force = np.array(log.time), np.array(log.specific_force)
+    moves = np.abs(np.array(motion.velocity)).max(axis=1) > 1e-6
+    for end in np.flatnonzero(moves[:-1] & ~moves[1:]):
+        since = time[end:] - time[end]
+        force[end:] += np.outer(0.5 * np.exp(-since / 0.3) * np.sin(2 * np.pi * 7.0 * since), [1.0, -0.5, 0.3])
+    rings = cp.make_recording(time, np.array(log.joint_positions), force)
+    options = cp.WholeArmOptions()
+    options.sensor = load_sensor("qa700")
+    quiet, ringing = (cp.calibrate_whole_arm(r, cp.segment(r), options) for r in (log, rings))
+    several = [next(s for s in result.stretches if s.name == "several joints") for result in (quiet, ringing)]
+    assert several[1].residual_rms < 1.5 * several[0].residual_rms
+    assert np.all(np.sqrt(np.diag(ringing.joints.covariance)) < 1.3 * np.sqrt(np.diag(quiet.joints.covariance)))

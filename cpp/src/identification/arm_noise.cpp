@@ -173,31 +173,4 @@ double log_root_determinant(const ArmNoise& noise, const ArmRows& rows, std::siz
   return sum;
 }
 
-void name_kinds(ArmRows& rows, Index joints) {
-  constexpr Index shortest = 100;
-  std::vector<Index> count(static_cast<std::size_t>(joints) + 1, 0);
-  const auto slot = [joints](const MovingStretch& stretch) {
-    return static_cast<std::size_t>(stretch.joint >= 0 ? stretch.joint : joints);
-  };
-  for (const MovingStretch& stretch : rows.stretches) {
-    count[slot(stretch)] += stretch.rows();
-  }
-  std::vector<Index> kind(count.size(), -1);
-  Index kinds = 0;
-  for (std::size_t i = 0; i < count.size(); ++i) {
-    if (count[i] >= shortest) {
-      kind[i] = kinds++;
-    }
-  }
-  Index shared = -1;
-  for (MovingStretch& stretch : rows.stretches) {
-    Index& mine = kind[slot(stretch)];
-    if (mine < 0) {
-      shared = shared < 0 ? kinds++ : shared;
-      mine = shared;
-    }
-    stretch.noise = mine;
-  }
-}
-
 }  // namespace circlepoint

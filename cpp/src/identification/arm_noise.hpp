@@ -37,7 +37,4 @@ void whiten_stretch(const ArmNoise& noise, const ArmRows& rows, std::size_t inde
 // The logarithm of the determinant of what the whitening of stretch `index` undoes: half that of its noise's covariance.
 double log_root_determinant(const ArmNoise& noise, const ArmRows& rows, std::size_t index);
 
-// Kinds of motion: each joint alone, and all others; a kind too short for a noise model of its own joins the others.
-void name_kinds(ArmRows& rows, Index joints);
-
 }  // namespace circlepoint

@@ -162,6 +162,23 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
   return row;
 }
 
+// The rest a dwell is the quiet part of: from where all joints come to stand to where one leaves. An arm that has stopped rings on.
+// Coarse encoders do not show when.
+IndexRange whole_rest(const Recording& recording, const IndexRange& span, const StaticDwell& dwell, const Eigen::VectorXd& resolution) {
+  constexpr double still = 2e-4;  // rad or m
+  const auto stands = [&](Index sample) {
+    return (recording.joint_positions.row(sample).transpose() - dwell.joint_positions).cwiseAbs().maxCoeff() <= still;
+  };
+  IndexRange rest = dwell.samples;
+  while (!are_coarse(resolution) && rest.begin > span.begin && stands(rest.begin - 1)) {
+    --rest.begin;
+  }
+  while (!are_coarse(resolution) && rest.end < span.end && stands(rest.end)) {
+    ++rest.end;
+  }
+  return rest;
+}
+
 // The motions between dwells, by their peak speeds and travels.
 struct MotionsSeen {
   double frequency = 0.0;      // Hz, the highest of any
@@ -349,9 +366,10 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      add_stretches(rows, recording, segmentation, spans.back(), {begin, dwell.samples.begin - apart}, step, longest, resolution,
-                    errors);
-      begin = dwell.samples.end + apart;
+      const IndexRange rest = whole_rest(recording, span, dwell, resolution);
+      const Index end = std::min(dwell.samples.begin - apart, rest.begin + apart);
+      add_stretches(rows, recording, segmentation, spans.back(), {begin, end}, step, longest, resolution, errors);
+      begin = std::max(dwell.samples.end + apart, rest.end - apart);
     }
     add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution, errors);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "arm_kinds.hpp"
 #include "arm_layout.hpp"
 #include "arm_mirror.hpp"
 #include "arm_report.hpp"
@@ -160,7 +161,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     }
     require_rests(problem.rows.dwells.size(), std::count(moves.begin(), moves.end(), true), recording.is_static());
   }
-  name_kinds(problem.rows, joints);
+  name_kinds(problem.rows);
 
   ArmState state = initial_state(recording, result.joints, options);
   problem.prior.gravity = options.gravity_magnitude;
@@ -197,7 +198,7 @@ WholeArmCalibration calibrate_whole_arm(const Recording& recording, const Segmen
     if (!tied.stretches.empty()) {
       problem.rows = std::move(tied);
       result.samples = problem.rows.samples;
-      name_kinds(problem.rows, joints);
+      name_kinds(problem.rows);
       begin_anew();
     }
   }
