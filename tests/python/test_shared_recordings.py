@@ -170,7 +170,7 @@ def test_lengths_of_the_real_arm_are_the_makers_within_millimetres(shared_data, 
     assert spread.max() < 4e-3
     assert (error / spread).max() < 2.0
     # The gyroscope is ahead of the accelerometer, by more than two standard deviations.
-    assert result.gyroscope_delay == (pytest.approx(-0.46e-3, abs=0.15e-3) if gyroscope else 0.0)
+    assert result.gyroscope_delay == (pytest.approx(-0.39e-3, abs=0.15e-3) if gyroscope else 0.0)
 
 
 def test_whole_arm_clocks_agree_with_their_alignment_by_activity(real_arm, whole_real_arm):

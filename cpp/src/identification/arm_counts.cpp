@@ -13,9 +13,11 @@ constexpr double supposed_weight = 4.0;    // changes
 constexpr double finest_change = 5e-3;     // counts: no boundary is known better
 constexpr double worst_change = 0.35;      // counts rms: the model does not hold beyond
 
-// Squared counts: a boundary is passed anywhere between two samples, and anywhere within what the joint moves by in that time.
+// Squared counts: the position midway between two samples of which one is on either side of a boundary is off by as much as the joint
+// may have moved from it in that time; of several boundaries passed at once, by what its motion and their number leave open.
 Eigen::ArrayXd between_samples(const CountRows& counts) {
-  return (counts.change_moved.array().square() + (counts.change_size.array() - 1.0).max(0.0).square()) / 12.0;
+  const Eigen::ArrayXd moved = counts.change_moved.array().abs();
+  return (moved.min(1.0).square() + (counts.change_size.array() - moved.max(1.0)).square().min(1.0)) / 12.0;
 }
 
 JointFit fit_joint(const std::vector<CountRows>& counts, const std::vector<std::size_t>& tests) {
@@ -146,8 +148,10 @@ JointFit fit_and_judge(std::vector<CountRows>& counts, std::vector<std::size_t> 
       }
       holding.push_back(tests[k]);
       off.push_back(here);
-      all.freedom += here.freedom;
-      all.beyond += here.beyond;
+      if (here.rms() <= worst_change) {  // others tell nothing of those in which the model holds
+        all.freedom += here.freedom;
+        all.beyond += here.beyond;
+      }
     }
     const double common = all.beyond / all.freedom;
     for (std::size_t k = 0; k < holding.size(); ++k) {

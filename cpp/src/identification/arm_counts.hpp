@@ -26,7 +26,7 @@ struct CountRows {
   Eigen::VectorXd repeats;           // changes of the same count the same way: they repeat the model's error
   Eigen::MatrixXd within_functions;  // everywhere
   Eigen::VectorXd within;
-  double change_std = 0.1;           // counts
+  double change_std = 0.1;           // counts, beyond what passes between samples
   double within_std = 1.0 / std::sqrt(12.0);  // counts rms
   bool small = true;                 // where no count changes, all functions together are within it; else each is
 };

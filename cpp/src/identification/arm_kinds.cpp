@@ -8,7 +8,8 @@ namespace circlepoint {
 namespace {
 
 constexpr Index shortest = 100;  // rows that pay for a noise model
-constexpr double moves = 0.05;   // of a joint's travel in the recording
+constexpr double moves = 0.05;   // of a joint's travel in the recording, and
+constexpr double still = 0.02;   // rad or m: joints at rest yield, and noise is no motion
 
 struct Reach {
   Eigen::VectorXd low;
@@ -44,7 +45,7 @@ std::vector<std::vector<bool>> joints_in_motion(const ArmRows& rows) {
     return sets;
   }
   const Index joints = rows.stretches.front().position.cols();
-  const Eigen::ArrayXd far = Eigen::ArrayXd::NullaryExpr(joints, [&](Index joint) { return moves * travel(rows, joint); });
+  const Eigen::ArrayXd far = Eigen::ArrayXd::NullaryExpr(joints, [&](Index joint) { return std::max(still, moves * travel(rows, joint)); });
   std::map<Index, Reach> runs = reach_of_runs(rows);
   for (const MovingStretch& stretch : rows.stretches) {
     std::vector<bool>& set = sets.emplace_back(static_cast<std::size_t>(joints), false);

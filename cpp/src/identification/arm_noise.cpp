@@ -36,7 +36,8 @@ void scale(MotionNoise& noise, double factor) {
 }
 
 // m/s^2 or rad/s: the standard deviation in every direction that, beside what is known of each dwell, makes three channels' residuals
-// likeliest. Where an encoder's count tilts gravity, what is across that direction tells. `freedom`: the share that no parameter takes.
+// likeliest; zero where the likelihood falls from there. Where an encoder's count tilts gravity, what is across that direction tells.
+// `freedom`: the share that no parameter takes; what shared offsets take is left out.
 double dwell_excess(const Eigen::MatrixXd& dwells, const std::vector<Eigen::MatrixXd>& covariance, Index channel, double freedom) {
   const Index count = dwells.rows();
   Eigen::ArrayXXd known(3, count);    // variance in each dwell's principal directions

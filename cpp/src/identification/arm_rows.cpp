@@ -163,17 +163,17 @@ DwellRow dwell_row(const Recording& recording, const StaticDwell& dwell, const E
 }
 
 // The rest a dwell is the quiet part of: from where all joints come to stand to where one leaves. An arm that has stopped rings on.
-// Coarse encoders do not show when.
-IndexRange whole_rest(const Recording& recording, const IndexRange& span, const StaticDwell& dwell, const Eigen::VectorXd& resolution) {
+// `within`: no farther than to other dwells.
+IndexRange whole_rest(const Recording& recording, const IndexRange& within, const StaticDwell& dwell) {
   constexpr double still = 2e-4;  // rad or m
   const auto stands = [&](Index sample) {
     return (recording.joint_positions.row(sample).transpose() - dwell.joint_positions).cwiseAbs().maxCoeff() <= still;
   };
   IndexRange rest = dwell.samples;
-  while (!are_coarse(resolution) && rest.begin > span.begin && stands(rest.begin - 1)) {
+  while (rest.begin > within.begin && stands(rest.begin - 1)) {
     --rest.begin;
   }
-  while (!are_coarse(resolution) && rest.end < span.end && stands(rest.end)) {
+  while (rest.end < within.end && stands(rest.end)) {
     ++rest.end;
   }
   return rest;
@@ -362,14 +362,19 @@ ArmRows make_rows(const Recording& recording, const Segmentation& segmentation, 
     // Rows of a stretch hold noise from half a filter's width around; what a dwell has averaged must not count again.
     const auto apart = static_cast<Index>(std::lround(0.3 * recording.sample_rate / cutoff));
     Index begin = span.begin;
-    for (const StaticDwell& dwell : segmentation.dwells) {
+    Index before = span.begin;  // the end of the dwell before
+    for (std::size_t i = 0; i < segmentation.dwells.size(); ++i) {
+      const StaticDwell& dwell = segmentation.dwells[i];
       if (dwell.samples.begin < span.begin || dwell.samples.end > span.end) {
         continue;
       }
-      const IndexRange rest = whole_rest(recording, span, dwell, resolution);
+      const Index after = i + 1 < segmentation.dwells.size() ? std::min(span.end, segmentation.dwells[i + 1].samples.begin) : span.end;
+      // Coarse encoders do not show when joints stop.
+      const IndexRange rest = coarse ? dwell.samples : whole_rest(recording, {before, after}, dwell);
       const Index end = std::min(dwell.samples.begin - apart, rest.begin + apart);
       add_stretches(rows, recording, segmentation, spans.back(), {begin, end}, step, longest, resolution, errors);
       begin = std::max(dwell.samples.end + apart, rest.end - apart);
+      before = dwell.samples.end;
     }
     add_stretches(rows, recording, segmentation, spans.back(), {begin, span.end}, step, longest, resolution, errors);
   }

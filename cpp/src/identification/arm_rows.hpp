@@ -72,7 +72,7 @@ struct YieldTie {
 };
 
 // A joint at rest stands somewhere within its encoder's count, and stays there: whatever shares that rest shares the error. Such
-// offsets are parameters with the count as their prior; a rest that no other row shares is noise of its row.
+// offsets are parameters with the count as their prior; a rest of a single dwell is noise of its row.
 struct ArmRows {
   std::vector<DwellRow> dwells;
   std::vector<MovingStretch> stretches;

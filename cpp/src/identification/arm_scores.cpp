@@ -48,7 +48,20 @@ std::vector<std::size_t> repeated_motions(const ArmRows& rows) {
 }  // namespace
 
 double score_ratio(const ArmProblem& problem, const std::vector<PartEquations>& parts, const Eigen::MatrixXd& covariance) {
-  const auto shares_counts = [](const MovingStretch& stretch) { return !stretch.errors.empty() && !stretch.offsets.empty(); };
+  std::vector<int> uses(static_cast<std::size_t>(problem.offsets.size()), 0);
+  const auto count = [&](const auto& parts_with_offsets) {
+    for (const auto& part : parts_with_offsets) {
+      for (const OffsetTerm& term : part.offsets) {
+        ++uses[static_cast<std::size_t>(term.parameter)];
+      }
+    }
+  };
+  count(problem.rows.stretches);
+  count(problem.rows.dwells);
+  const auto shared = [&](const OffsetTerm& term) { return uses[static_cast<std::size_t>(term.parameter)] > 1; };
+  const auto shares_counts = [&](const MovingStretch& stretch) {
+    return !stretch.errors.empty() && std::any_of(stretch.offsets.begin(), stretch.offsets.end(), shared);
+  };
   if (std::any_of(problem.rows.stretches.begin(), problem.rows.stretches.end(), shares_counts)) {
     return 1.0;
   }

@@ -57,6 +57,7 @@ TEST(ArmCountsTest, StatesWhatChangesOfCountsTellAtAnyRate) {
     for (const double rate : {100.0, 1000.0}) {
       const Outcome outcome = read_yields(yield, rate, trials);
       EXPECT_LT(outcome.squares, 1.3) << yield << " counts at " << rate << " Hz";
+      EXPECT_GT(outcome.squares, 0.2) << yield << " counts at " << rate << " Hz";
     }
   }
 }
@@ -65,6 +66,28 @@ TEST(ArmCountsTest, KnowsTheHomeBetterTheFinerTheSamples) {
   constexpr int trials = 20;
   EXPECT_LT(read_yields(4.0, 1000.0, trials).std, 0.8 * read_yields(4.0, 50.0, trials).std);
   EXPECT_LT(read_yields(4.0, 1000.0, trials).std, 0.02);
+}
+
+// What says nothing of the model, here an encoder of something else, says nothing of how well changes are known.
+TEST(ArmCountsTest, LeavesOutATestThatIsNotDescribedAndNoOther) {
+  const Eigen::MatrixXd phi = functions(500.0);
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> within(-0.5, 0.5);
+  std::vector<CountRows> counts(6);
+  std::vector<std::size_t> tests;
+  for (std::size_t test = 0; test < counts.size(); ++test) {
+    const Eigen::Vector3d truth = Eigen::Vector3d::NullaryExpr([&] { return 6.0 * within(generator); });
+    Eigen::VectorXd position = (phi * truth).array() + 0.2;
+    if (test == 3) {
+      position = Eigen::VectorXd::LinSpaced(phi.rows(), 0.0, 20.0 * std::numbers::pi).array().sin() * 20.0;
+    }
+    read_counts(counts[test], phi, position.array().round().matrix(), 10);
+    count_repeats(counts[test]);
+    tests.push_back(test);
+  }
+  const JointFit fit = fit_and_judge(counts, tests);
+  EXPECT_EQ(fit.tests, (std::vector<std::size_t>{0, 1, 2, 4, 5}));
+  EXPECT_LT(counts[0].change_std, 0.1);
 }
 
 }  // namespace

@@ -48,5 +48,15 @@ TEST(ArmKindsTest, WhatNoRestDividesIsOfOneKind) {
   }
 }
 
+TEST(ArmKindsTest, NoiseOfAJointAtRestIsNoMotion) {
+  ArmRows rows;
+  rows.stretches = {stretch_from(0.0, {1.0, 1.0, 1e-4}), stretch_from(2.0, {1.0, 1.0, 1e-6})};
+  rows.stretches.push_back(stretch_from(4.0, {1.0, 1.0, 1e-6}));
+  rows.dwells = {rest_at(1.5), rest_at(3.5)};
+  name_kinds(rows);
+  EXPECT_EQ(rows.stretches[0].noise, rows.stretches[1].noise);
+  EXPECT_EQ(rows.stretches[0].noise, rows.stretches[2].noise);
+}
+
 }  // namespace
 }  // namespace circlepoint
